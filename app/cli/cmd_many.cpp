@@ -77,9 +77,13 @@ Result<CommandOutput> run_each(const SolveArguments& arguments, const Progress& 
   const std::string& path = arguments.outputs.front();
   work->reach.sparse = is_npz(path);
   const auto rows = static_cast<std::int64_t>(work->sources.sets.size());
-  auto file = RowsFile::open(path, *work, *type);
-  if (!file) return file.error();
   RowSums sums;
+  auto file = RowsFile::open(path, *work, *type,
+                             [&](std::size_t, std::span<const double> row) -> Result<void> {
+                               sums.add(row);
+                               return {};
+                             });
+  if (!file) return file.error();
   auto figures = solve_many(
       *work, arguments,
       [&](std::size_t row, const DistanceResult& answer) -> Result<void> {
@@ -291,22 +295,38 @@ Result<CommandOutput> run_pairs(const SolveArguments& arguments, const Progress&
   }
   fits = work->ranks.agree(fits);
   if (!fits) return fits.error();
-  std::string mine;  // the entries of this rank's rows, as bytes
+  std::string mine;  // of each row of this rank its number and entries, as bytes
+  const auto take = [&mine](std::size_t row, std::span<const double> distances) -> Result<void> {
+    mine.append(reinterpret_cast<const char*>(&row), sizeof row);
+    mine.append(reinterpret_cast<const char*>(distances.data()), distances.size_bytes());
+    return {};
+  };
+  // Rows are kept beside the first file, in case that the work is ended from outside.
+  std::optional<SharedRows> kept;
+  const auto beside = std::ranges::find_if(arguments.outputs, is_renamed);
+  if (beside != arguments.outputs.end()) {
+    auto file = SharedRows::open(*beside, *work, static_cast<Index>(rows), NpyType::kFloat64, take);
+    if (!file) return about_file(file.error());
+    kept.emplace(*std::move(file));
+  }
   auto figures = solve_many(
       *work, arguments,
-      [&mine](std::size_t, const DistanceResult& answer) -> Result<void> {
-        mine.append(reinterpret_cast<const char*>(answer.distances.data()),
-                    answer.distances.size() * sizeof(double));
-        return {};
+      [&](std::size_t row, const DistanceResult& answer) -> Result<void> {
+        if (auto taken = take(row, answer.distances); !taken || !kept) return taken;
+        const auto written = kept->write(row, answer.distances);
+        return written ? written : about_file(written.error());
       },
       "a matrix of " + bytes_in_words(static_cast<double>(sizeof(double) * rows * rows)), progress,
       announce);
   if (!figures) return figures.error();
-  for (const std::string& rows_of_rank : work->ranks.exchange(mine)) {
-    const std::size_t before = pairs.entries.size();
-    pairs.entries.resize(before + rows_of_rank.size() / sizeof(double));
-    if (rows_of_rank.empty()) continue;
-    std::memcpy(pairs.entries.data() + before, rows_of_rank.data(), rows_of_rank.size());
+  pairs.entries.resize(pairs.size() * pairs.size());
+  const std::size_t bytes_of_row = pairs.size() * sizeof(double);
+  for (const std::string& of_rank : work->ranks.exchange(mine)) {
+    for (std::size_t at = 0, row = 0; at < of_rank.size(); at += sizeof row + bytes_of_row) {
+      std::memcpy(&row, of_rank.data() + at, sizeof row);
+      std::memcpy(pairs.entries.data() + row * pairs.size(), of_rank.data() + at + sizeof row,
+                  bytes_of_row);
+    }
   }
   if (!work->ranks.is_first()) return CommandOutput();
   const Asymmetry apart = asymmetry(pairs);
@@ -327,6 +347,7 @@ Result<CommandOutput> run_pairs(const SolveArguments& arguments, const Progress&
     });
     if (!written) return written.error();
   }
+  if (kept) kept->discard();
   if (!arguments.json.empty()) {
     const auto written = outputs.write_text(
         arguments.json, report_text(pairs_json(*work, *figures, pairs, apart, arguments.symmetric)),

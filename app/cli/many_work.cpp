@@ -146,32 +146,42 @@ Result<ManySources> begin_many(const SolveArguments& arguments, const Ranks& ran
   if (!sources) return sources.error();
   auto reach = reach_of(arguments, *model);
   if (!reach) return reach.error();
-  // Blocks of sixteen are solved as one, and shared out whole.
-  constexpr std::size_t kBlock = 16;
-  const std::size_t rows = sources->sets.size(), blocks = (rows + kBlock - 1) / kBlock;
-  const auto begin_of = [&](int rank) {
-    return std::min(rows, blocks * static_cast<std::size_t>(rank) /
-                              static_cast<std::size_t>(ranks.count()) * kBlock);
-  };
-  const std::size_t first = begin_of(ranks.rank()), count = begin_of(ranks.rank() + 1) - first;
-  const std::size_t chunk =
-      std::min(good_chunk(model->mesh->vertex_count(), options.threads, free_memory()),
-               std::max<std::size_t>(count, 1));
   MeshReport mesh = inspect_mesh(*model->mesh);
   describe_space(*model, mesh);
-  return ManySources{*std::move(model),
-                     mesh,
-                     options,
-                     *std::move(sources),
-                     *std::move(reach),
-                     *check,
-                     chunk,
-                     ranks,
-                     first,
-                     count};
+  std::string none_yet((sources->sets.size() + kBlockRows - 1) / kBlockRows, '0');
+  ManySources work{.model = *std::move(model),
+                   .mesh = mesh,
+                   .options = options,
+                   .sources = *std::move(sources),
+                   .reach = *std::move(reach),
+                   .check = *check,
+                   .ranks = ranks,
+                   .rows = {}};
+  share_out(work, none_yet);
+  return work;
 }
 
 }  // namespace
+
+void share_out(ManySources& work, std::string& marks) {
+  if (marks.find('0') == std::string::npos) marks.front() = '0';
+  work.rows.clear();
+  for (std::size_t row = 0; row < work.sources.sets.size(); ++row) {
+    if (marks[row / kBlockRows] == '0') work.rows.push_back(row);
+  }
+  const std::size_t rows = work.rows.size(), blocks = (rows + kBlockRows - 1) / kBlockRows;
+  const auto ranks = static_cast<std::size_t>(work.ranks.count());
+  // The first rank, which reports, has some always.
+  const auto begin_of = [&](int rank) {
+    const std::size_t before = blocks * static_cast<std::size_t>(rank) + ranks - 1;
+    return std::min(rows, before / ranks * kBlockRows);
+  };
+  work.first = begin_of(work.ranks.rank());
+  work.count = begin_of(work.ranks.rank() + 1) - work.first;
+  work.chunk =
+      std::min(good_chunk(work.model.mesh->vertex_count(), work.options.threads, free_memory()),
+               std::max<std::size_t>(work.count, 1));
+}
 
 Result<ManySources> begin_many(const SolveArguments& arguments, const Result<void>& before,
                                const Progress& progress) {
@@ -216,13 +226,16 @@ Result<ManyFigures> solve_share(const ManySources& work, const SolveArguments& a
   add_warnings(figures.warnings, figures.method->warnings());
   add_warnings(figures.warnings, work.sources.warnings);
 
+  const auto rows = std::span(work.rows).subspan(work.first, work.count);
+  std::vector<SourceSet> sets;
+  for (const std::size_t row : rows) sets.push_back(work.sources.sets[row]);
   StreamOptions stream;
   stream.chunk = work.chunk;
   stream.query.reach = work.reach;
   std::vector<Warning> of_answers;
   std::optional<Error> not_taken;
   const auto sink = [&](std::size_t row, DistanceResult&& answer) -> Result<void> {
-    auto taken = take(work.first + row, answer);
+    auto taken = take(rows[row], answer);
     if (!taken) {
       not_taken = taken.error();
       return taken;
@@ -240,7 +253,7 @@ Result<ManyFigures> solve_share(const ManySources& work, const SolveArguments& a
       " of memory for answers and " + bytes_in_words(figures.method->memory_mb() * kMegabyte) +
       " for the method";
   const auto done = stream_answers(
-      *figures.method, std::span(work.sources.sets).subspan(work.first, work.count), stream, sink,
+      *figures.method, sets, stream, sink,
       with_estimate(part_of(progress, kSetupShare, 1.0), announce, kSourcesStage,
                     counted(static_cast<std::int64_t>(work.count), "source", "sources"), details));
   if (!done) return not_taken ? *not_taken : about_model(work.model.name, done.error());
@@ -302,7 +315,7 @@ Json many_json(const ManySources& work, const ManyFigures& figures) {
     }
   }
   const SetupTiming& setup = figures.method->timing();
-  const auto rows = static_cast<double>(work.sources.sets.size());
+  const auto rows = static_cast<double>(work.rows.size());
   Json json = {
       {"model", model_json(work.model, work.mesh)},
       {"options", options_json(*figures.method, figures.options, figures.first)},
@@ -317,6 +330,7 @@ Json many_json(const ManySources& work, const ManyFigures& figures) {
         {"answers", static_cast<double>(chunk_bytes(work.mesh.vertices, work.chunk)) / kMegabyte},
         {"peak_rss", figures.peak_rss_mb}}},
       {"warnings", told(figures.warnings)}};
+  if (work.done_before() > 0) json["done_before"] = work.done_before();
   if (!work.ranks.alone()) json["ranks"] = work.ranks.count();
   if (figures.error) json["error"] = error_json(*figures.error);
   if (figures.replaced) json["replaced"] = error_json(*figures.replaced);
@@ -331,7 +345,11 @@ std::string many_table(const ManySources& work, const ManyFigures& figures,
   table.add_row({"method", to_text(figures.method->kind()) +
                                (heat ? ", " + figures.first.backend : std::string()) + ", " +
                                counted(thread_count(work.options.threads), "thread", "threads")});
-  const auto rows = static_cast<double>(work.sources.sets.size());
+  const auto rows = static_cast<double>(work.rows.size());
+  if (work.done_before() > 0) {
+    const auto before = static_cast<std::int64_t>(work.done_before());
+    table.add_row({"done before", counted(before, "row", "rows") + ", which were kept"});
+  }
   if (!work.ranks.alone()) table.add_row({"ranks", std::to_string(work.ranks.count())});
   table.add_row({"set-up", milliseconds(figures.method->timing().setup) + " ms"});
   table.add_row({"queries", milliseconds(figures.queries_ms) + " ms, " +

@@ -25,6 +25,10 @@
 // stream. Some of it serves `solve --sequence`, too.
 namespace geotherm::app {
 
+/// Sources that the heat method solves as one, and that are shared out whole, so that rows have the
+/// bits of one process.
+inline constexpr std::size_t kBlockRows = 16;
+
 /// Set-up's share of the bar.
 inline constexpr double kSetupShare = 0.1;
 
@@ -36,12 +40,17 @@ struct ManySources {
   EachSource sources;
   Reach reach;
   CheckSettings check;
-  std::size_t chunk = 1;  ///< sources solved at once
-  Ranks ranks;            ///< that share the sources
-  /// Of this rank: those from `first` on, `count` of them. Shares begin at multiples of sixteen, so
-  /// that the rows have the bits of one rank.
-  std::size_t first = 0, count = 0;
+  std::size_t chunk = 1;             ///< sources solved at once
+  Ranks ranks;                       ///< that share the sources
+  std::vector<std::size_t> rows;     ///< of all ranks, ascending; others are there from before
+  std::size_t first = 0, count = 0;  ///< those of this rank among them, in whole blocks
+
+  std::size_t done_before() const { return sources.sets.size() - rows.size(); }
 };
+
+/// Shares out the blocks of rows that are still to be solved for: those with a 0. Where all have a
+/// 1 the first becomes a 0, so that there is an answer to report on.
+void share_out(ManySources& work, std::string& marks);
 
 /// Statistics over all source sets; the distances have been streamed out.
 struct ManyFigures {

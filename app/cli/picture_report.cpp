@@ -173,10 +173,10 @@ std::string picture_table(const PictureFigures& f) {
   TextTable table({{"", TextTable::Align::kLeft}, {"", TextTable::Align::kLeft}});
   const bool several = f.paths.size() > 1;
   const bool scene = f.scene_bytes > 0;
-  constexpr double kMegabyte = 1e6;
+  constexpr double kMillion = 1e6;
   if (scene) {
     table.add_row({"scene", one_line(f.paths.front()) + ": " +
-                                significant(static_cast<double>(f.scene_bytes) / kMegabyte) +
+                                significant(static_cast<double>(f.scene_bytes) / kMillion) +
                                 " MB"});
   }
   if (!scene)

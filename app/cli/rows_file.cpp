@@ -2,18 +2,36 @@
 #include "app/cli/rows_file.h"
 
 #include <fcntl.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
+#include <bit>
 #include <cerrno>
+#include <filesystem>
 #include <system_error>
 #include <utility>
+#include <vector>
 
 #include "app/session/wording.h"
 #include "app/text/text.h"
+#include "solver/mesh/io/byte_order.h"
 #include "solver/mesh/io/format_writers.h"
 #include "solver/mesh/output_file.h"
 
 namespace geotherm::app {
+
+namespace {
+
+/// What FILE.part has of the disk already.
+double bytes_of_part(const std::string& path) {
+  constexpr double kBytesOfBlock = 512;
+  struct stat status {};
+  return ::stat((path + ".part").c_str(), &status) == 0
+             ? kBytesOfBlock * static_cast<double>(status.st_blocks)
+             : 0.0;
+}
+
+}  // namespace
 
 Error about_file(const Error& error) {
   return with_hint(error, {"make room there, or choose another place"});
@@ -21,7 +39,7 @@ Error about_file(const Error& error) {
 
 struct SharedFile::State {
   std::optional<GrowingFile> file;  ///< of the first rank
-  std::string path;
+  std::string path, name;
   int place = -1;  ///< where others write; -1: through the file, one piece after the other
   std::uint64_t header = 0;
 
@@ -38,7 +56,7 @@ SharedFile::~SharedFile() {
 }
 
 Result<SharedFile> SharedFile::open(const std::string& path, std::string_view header,
-                                    const Ranks& ranks) {
+                                    const Ranks& ranks, bool part) {
   SharedFile out(std::make_unique<State>());
   State& state = *out.state_;
   state.path = path;
@@ -49,16 +67,15 @@ Result<SharedFile> SharedFile::open(const std::string& path, std::string_view he
       return Error{ErrorCode::kBadInput,
                    "several processes cannot share standard output; give -o FILE.npy"};
     }
-    auto file = GrowingFile::open(path);
+    auto file = part ? GrowingFile::open_part(path) : GrowingFile::open(path);
     if (!file) return file.error();
     state.file = *std::move(file);
     return state.file->append(header);
   };
   if (auto begun = ranks.agree(begin()); !begun) return begun.error();
-  if (ranks.alone()) return out;
-  const std::string place =
-      ranks.exchange(ranks.is_first() ? state.file->place() : std::string()).front();
-  state.place = ::open(place.c_str(), O_WRONLY | O_CLOEXEC);
+  if (ranks.alone() && !part) return out;
+  state.name = ranks.exchange(ranks.is_first() ? state.file->place() : std::string()).front();
+  state.place = ::open(state.name.c_str(), O_RDWR | O_CLOEXEC);
   const auto opened = ranks.agree(state.place >= 0 ? Result<void>() : state.failure(errno));
   return opened ? Result<SharedFile>(std::move(out)) : opened.error();
 }
@@ -77,24 +94,94 @@ Result<void> SharedFile::write(std::uint64_t at, std::string_view bytes) {
   return {};
 }
 
+Result<void> SharedFile::read(std::uint64_t at, std::string& bytes) const {
+  const State& state = *state_;
+  at += state.header;
+  for (std::size_t have = 0; have < bytes.size();) {
+    const ssize_t count = ::pread(state.place, bytes.data() + have, bytes.size() - have,
+                                  static_cast<off_t>(at + have));
+    if (count < 0 && errno == EINTR) continue;
+    if (count <= 0) {
+      return Error{ErrorCode::kBadFile,
+                   one_line(state.name) + ": cannot be read: " +
+                       std::generic_category().message(count < 0 ? errno : EIO)};
+    }
+    have += static_cast<std::size_t>(count);
+  }
+  return {};
+}
+
+Result<void> SharedFile::to_disk() const {
+  return ::fdatasync(state_->place) == 0 ? Result<void>() : state_->failure(errno);
+}
+
 Result<void> SharedFile::finish() { return state_->file->finish(); }
 
-Result<SharedRows> SharedRows::open(const std::string& path, const ManySources& work, Index columns,
-                                    NpyType type) {
+const std::string& SharedFile::place() const { return state_->name; }
+
+Result<SharedRows> SharedRows::open(const std::string& path, ManySources& work, Index columns,
+                                    NpyType type, const TakeDistances& take) {
   const std::uint64_t rows = work.sources.sets.size();
   const auto width = static_cast<std::uint64_t>(columns);
-  auto file = SharedFile::open(path, io::npy_rows_header(rows, width, type), work.ranks);
+  const bool keeps = !work.model.space && is_renamed(path);
+  const std::string header = io::npy_rows_header(rows, width, type);
+  auto file = SharedFile::open(path, header, work.ranks, keeps);
   if (!file) return file.error();
   const std::uint64_t row = npy_bytes_of(1, width, type) - npy_bytes_of(0, width, type);
-  return SharedRows(*std::move(file), path, row, type);
+  SharedRows out(*std::move(file), path, row, type);
+  if (!keeps) return out;
+  auto list = KeptRows::open(out.file_.place(), header.size() + rows * row,
+                             job_of(work, columns, type), rows, work.ranks);
+  if (!list) return list.error();
+  out.kept_.emplace(*std::move(list));
+  std::string marks = out.kept_->marks();
+  share_out(work, marks);
+  const auto taken = work.ranks.agree(out.take_kept(work, marks, columns, take));
+  return taken ? Result<SharedRows>(std::move(out)) : taken.error();
+}
+
+Result<void> SharedRows::take_kept(const ManySources& work, const std::string& marks, Index columns,
+                                   const TakeDistances& take) const {
+  std::vector<double> distances(static_cast<std::size_t>(columns));
+  std::string bytes(row_, '\0');
+  const auto ranks = static_cast<std::size_t>(work.ranks.count());
+  for (std::size_t row = 0; row < work.sources.sets.size(); ++row) {
+    const std::size_t block = row / kBlockRows;
+    if (marks[block] == '0' || block % ranks != static_cast<std::size_t>(work.ranks.rank())) {
+      continue;
+    }
+    if (auto read = file_.read(row * row_, bytes); !read) return read;
+    for (std::size_t v = 0; v < distances.size(); ++v) {
+      distances[v] = type_ == NpyType::kFloat64
+                         ? io::load<double>(bytes.data() + 8 * v, std::endian::little)
+                         : io::load<float>(bytes.data() + 4 * v, std::endian::little);
+    }
+    if (auto taken = take(row, distances); !taken) return taken;
+  }
+  return {};
 }
 
 Result<void> SharedRows::write(std::size_t row, std::span<const double> distances) {
   if (auto made = io::npy_row(path_, distances, type_, bytes_); !made) return made;
-  return file_.write(row * row_, bytes_);
+  auto written = file_.write(row * row_, bytes_);
+  if (!written || !kept_) return written;
+  return kept_->add(row, [this] { return file_.to_disk(); });
 }
 
-Result<RowsFile> RowsFile::open(const std::string& path, const ManySources& work, NpyType type) {
+Result<void> SharedRows::finish() {
+  auto finished = file_.finish();
+  if (finished && kept_) kept_->finish();
+  return finished;
+}
+
+void SharedRows::discard() {
+  std::error_code gone;
+  std::filesystem::remove(file_.place(), gone);
+  if (kept_) kept_->finish();
+}
+
+Result<RowsFile> RowsFile::open(const std::string& path, ManySources& work, NpyType type,
+                                const TakeDistances& take) {
   RowsFile out;
   const std::size_t targets = work.reach.targets.size();
   out.columns_ = targets > 0 ? static_cast<Index>(targets) : work.mesh.vertices;
@@ -112,8 +199,9 @@ Result<RowsFile> RowsFile::open(const std::string& path, const ManySources& work
   }
   const std::uint64_t rows = work.sources.sets.size();
   out.bytes_ = static_cast<double>(npy_bytes_of(rows, columns, type));
-  if (auto fits = work.ranks.agree(check_room(path, out.bytes_)); !fits) return fits.error();
-  auto file = SharedRows::open(path, work, out.columns_, type);
+  const double more = out.bytes_ - bytes_of_part(path);
+  if (auto fits = work.ranks.agree(check_room(path, more)); !fits) return fits.error();
+  auto file = SharedRows::open(path, work, out.columns_, type, take);
   if (!file) return about_file(file.error());
   out.rows_.emplace(*std::move(file));
   return out;

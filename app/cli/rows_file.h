@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
@@ -9,6 +10,7 @@
 #include <string_view>
 #include <utility>
 
+#include "app/cli/kept_rows.h"
 #include "app/cli/many_work.h"
 
 // The files that `solve --each` writes as rows come.
@@ -21,17 +23,22 @@ Error about_file(const Error& error);
 /// when all are done.
 class SharedFile {
  public:
-  /// All ranks. Errors: kBadFile, the same on all.
+  /// All ranks. `part`: GrowingFile::open_part(). Errors: kBadFile, the same on all.
   static Result<SharedFile> open(const std::string& path, std::string_view header,
-                                 const Ranks& ranks);
+                                 const Ranks& ranks, bool part = false);
   SharedFile(SharedFile&&) noexcept;
   ~SharedFile();
 
   /// Writes at a place counted from the header's end; alone, behind what was written last. Errors:
   /// kBadFile.
   Result<void> write(std::uint64_t at, std::string_view bytes);
+  /// Of `part` alone: reads so many bytes from a place, and waits for the disk. Errors: kBadFile.
+  Result<void> read(std::uint64_t at, std::string& bytes) const;
+  Result<void> to_disk() const;
   /// On the first rank, when the others have written theirs.
   Result<void> finish();
+
+  const std::string& place() const;
 
  private:
   struct State;
@@ -39,22 +46,33 @@ class SharedFile {
   std::unique_ptr<State> state_;
 };
 
-/// Rows of a .npy array that ranks write together.
+/// Takes a row of distances.
+using TakeDistances =
+    std::function<Result<void>(std::size_t row, std::span<const double> distances)>;
+
+/// Rows of a .npy array that ranks write together. Those of surfaces are kept where the work is
+/// ended from outside, and the same work goes on there (KeptRows).
 class SharedRows {
  public:
-  /// All ranks. Errors: kBadFile, the same on all.
-  static Result<SharedRows> open(const std::string& path, const ManySources& work, Index columns,
-                                 NpyType type);
+  /// All ranks. Leaves to be solved for what is not there, and hands each row that is to `take` on
+  /// one of the ranks. Errors: kBadFile, those of `take`, the same on all.
+  static Result<SharedRows> open(const std::string& path, ManySources& work, Index columns,
+                                 NpyType type, const TakeDistances& take);
 
   /// Errors: kBadFile, kBadInput (a row that does not fit the type).
   Result<void> write(std::size_t row, std::span<const double> distances);
   /// On the first rank, when the others have written theirs.
-  Result<void> finish() { return file_.finish(); }
+  Result<void> finish();
+  /// Likewise: removes the file, of which there is no more use.
+  void discard();
 
  private:
   SharedRows(SharedFile file, std::string path, std::uint64_t row, NpyType type)
       : file_(std::move(file)), path_(std::move(path)), row_(row), type_(type) {}
+  Result<void> take_kept(const ManySources& work, const std::string& marks, Index columns,
+                         const TakeDistances& take) const;
   SharedFile file_;
+  std::optional<KeptRows> kept_;  ///< goes first, while the file is locked
   std::string path_, bytes_;
   std::uint64_t row_;  ///< bytes
   NpyType type_;
@@ -63,8 +81,10 @@ class SharedRows {
 /// The rows of --each as they come: an array, or what is reached alone.
 class RowsFile {
  public:
-  /// All ranks. Errors: kBadFile (no room among them), kBadInput (sparse rows of several ranks).
-  static Result<RowsFile> open(const std::string& path, const ManySources& work, NpyType type);
+  /// All ranks, as SharedRows. Errors: also kBadFile (no room), kBadInput (sparse rows of several
+  /// ranks).
+  static Result<RowsFile> open(const std::string& path, ManySources& work, NpyType type,
+                               const TakeDistances& take);
 
   /// Errors: those of SharedRows and SparseRows.
   Result<void> write(std::size_t row, const DistanceResult& answer);

@@ -27,6 +27,7 @@ namespace fs = std::filesystem;
 
 /// Follows the name of a file that is being written.
 constexpr const char* kBeside = ".tmp-";
+constexpr const char* kPart = ".part";
 
 enum State : int { kFree, kTaken, kOpening, kOpen };
 
@@ -193,6 +194,7 @@ struct GrowingFile::State {
   std::string path;       ///< as given, for messages
   std::string target;     ///< what the temporary file becomes
   std::string temporary;  ///< empty: written in place
+  bool stays = false;     ///< the temporary file, where finish() is not reached
   std::unique_ptr<UnfinishedFile> unfinished;
   int file = -1;  ///< -1: standard output
 
@@ -200,8 +202,28 @@ struct GrowingFile::State {
 
   void abandon() {
     if (file >= 0) ::close(std::exchange(file, -1));
-    if (!temporary.empty()) ::unlink(std::exchange(temporary, {}).c_str());
+    if (!temporary.empty() && !stays) ::unlink(std::exchange(temporary, {}).c_str());
     unfinished.reset();
+  }
+
+  /// FILE.part; 0, or the system's error code, EWOULDBLOCK where another process has it.
+  int open_part(std::optional<mode_t> mode) {
+    const std::string name = target + kPart;
+    for (;;) {
+      file = ::open(name.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+      if (file < 0) return errno;
+      if (::flock(file, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) return EWOULDBLOCK;
+      // The one before may have renamed it in between.
+      struct stat ours {};
+      struct stat there {};
+      if (::fstat(file, &ours) != 0) return errno;
+      if (::stat(name.c_str(), &there) == 0 && ours.st_ino == there.st_ino) break;
+      ::close(std::exchange(file, -1));
+    }
+    temporary = name;
+    stays = true;
+    if (mode) ::fchmod(file, *mode & 07777);
+    return 0;
   }
 
   /// A file of a new name beside the target; 0, or the system's error code.
@@ -250,6 +272,24 @@ Result<GrowingFile> GrowingFile::open(const std::string& path) {
   return GrowingFile(std::move(state));
 }
 
+Result<GrowingFile> GrowingFile::open_part(const std::string& path) {
+  struct stat status {};
+  const bool exists = ::stat(path.c_str(), &status) == 0;
+  if (exists && ::access(path.c_str(), W_OK) != 0) return failure(path, errno);
+  auto state = std::make_unique<State>();
+  state->path = path;
+  state->target = target_of(path);
+  const int code =
+      state->open_part(exists ? std::optional(status.st_mode) : std::optional<mode_t>());
+  if (code == EWOULDBLOCK) {
+    return Error{ErrorCode::kBadFile,
+                 io::printable(path) + ": another process is writing it",
+                 {"wait for its end, or choose another name"}};
+  }
+  if (code != 0) return failure(path, code);
+  return GrowingFile(std::move(state));
+}
+
 Result<void> GrowingFile::append(std::string_view bytes) {
   if (state_->path == "-") {
     // Through the C stream: what the program wrote before must come before.
@@ -283,9 +323,14 @@ Result<void> GrowingFile::finish() {
   return code == 0 ? Result<void>() : failure(state_->path, code);
 }
 
+bool is_renamed(const std::string& path) {
+  std::error_code unknown;
+  return path != "-" && (!fs::exists(path, unknown) || fs::is_regular_file(path, unknown));
+}
+
 std::optional<std::uint64_t> room_for(const std::string& path) {
   std::error_code unknown;
-  if (path == "-" || (fs::exists(path, unknown) && !fs::is_regular_file(path, unknown))) return {};
+  if (!is_renamed(path)) return {};
   const fs::path folder = fs::path(target_of(path)).parent_path();
   const fs::space_info space = fs::space(folder.empty() ? "." : folder, unknown);
   if (unknown || space.available == static_cast<std::uintmax_t>(-1)) return {};

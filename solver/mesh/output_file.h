@@ -23,6 +23,11 @@ class GrowingFile {
  public:
   static Result<GrowingFile> open(const std::string& path);
 
+  /// The same for work that can go on where it was cut off: the bytes are in FILE.part, which stays
+  /// as it is where it is there already, and stays where finish() is not reached. Precondition:
+  /// is_renamed(path). Errors: also kBadFile, another process has it open like this.
+  static Result<GrowingFile> open_part(const std::string& path);
+
   GrowingFile(GrowingFile&&) noexcept;
   GrowingFile& operator=(GrowingFile&&) noexcept;
   GrowingFile(const GrowingFile&) = delete;
@@ -43,6 +48,9 @@ class GrowingFile {
   explicit GrowingFile(std::unique_ptr<State> state);
   std::unique_ptr<State> state_;
 };
+
+/// Whether this is a file, or none yet, and neither standard output nor a device or a pipe.
+bool is_renamed(const std::string& path);
 
 /// Bytes that still fit where `path` is to be written; empty where no file grows there (standard
 /// output, a device) or the system does not say.

@@ -37,6 +37,13 @@ done
 ranks 2 "$program" solve bunny -s random:40 --pairs --threads 1 -o pairs.csv >/dev/null
 cmp one.csv pairs.csv || fail "pairs of 2 ranks"
 
+# Samples, too: each rank solves for one of those that are likely to come next.
+"$program" sample bunny -n 40 --threads 1 -o one.csv --samples one_samples.csv >/dev/null
+ranks 3 "$program" sample bunny -n 40 --threads 1 -o cells.csv --samples samples.csv --json samples.json >/dev/null
+if ! cmp one.csv cells.csv || ! cmp one_samples.csv samples.csv; then fail "samples of 3 ranks"; fi
+grep -q '"ranks": 3' samples.json || fail "the report of samples"
+refused 2 'no such file\|cannot' "$program" sample gone.ply -n 3
+
 # One line of one rank, nothing left behind.
 refused 2 'works in one process' "$program" info bunny
 refused 2 'works in one process' "$program" solve bunny -s 0
@@ -79,6 +86,25 @@ wait "$launcher" && fail "ranks were killed, and mpirun is content"
 ranks 2 "$program" solve many.ply -s random:20 --each --no-check --threads 1 -o rows.npy >/dev/null
 [ "$(find . -name 'rows.npy*' | wc -l)" = 1 ] || fail "what was abandoned is there still: $(ls)"
 rm rows.npy
+# Rows that ranks have finished are not solved for again, by however many others: the launcher ends all when
+# one is killed.
+many=("$program" solve many.ply -s random:1600 --each --no-check --threads 1 --json kept.json)
+"${many[@]}" -o whole.npy >/dev/null
+mpirun --oversubscribe -q -n 2 "${many[@]}" -o rows.npy >/dev/null 2>&1 &
+launcher=$!
+for _ in $(seq 300); do [ ! -s rows.npy.part.done ] || break; sleep 0.1; done
+pkill -STOP -P "$launcher"
+sleep 2.5 # what takes less is not kept
+pkill -CONT -P "$launcher"
+for _ in $(seq 300); do ! tail -n 1 rows.npy.part.done | grep -q 1 || break; sleep 0.1; done
+kill -KILL "$(pgrep -P "$launcher" | tail -n 1)"
+wait "$launcher" && fail "a rank was killed, and mpirun is content"
+tail -n 1 rows.npy.part.done | grep -q 1 || fail "nothing was kept: $(ls)"
+ranks 3 "${many[@]}" -o rows.npy >/dev/null
+cmp whole.npy rows.npy || fail "kept rows differ"
+grep -q '"done_before": [1-9]' kept.json || fail "all rows were solved for again"
+[ "$(find . -name 'rows.npy*' | wc -l)" = 1 ] || fail "something was left: $(ls)"
+rm rows.npy whole.npy
 # Without the library of MPI.
 GEOTHERM_MPI_MODULE=none refused 2 'geotherm-mpi' "$program" solve bunny -s 0,1 --each -o rows.npy
 

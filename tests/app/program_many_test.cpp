@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <csignal>
+#include <filesystem>
+#include <utility>
 
 #include "app/cli/many_work.h"
 #include "app/session/settings.h"
@@ -108,7 +110,7 @@ TEST_F(Program, EachThatIsInterruptedLeavesNothing) {
   const auto begun = [&] {
     const auto names = folder.names();
     return std::ranges::any_of(
-        names, [](const std::string& name) { return name.find(".tmp-") != name.npos; });
+        names, [](const std::string& name) { return name.ends_with(".part.done"); });
   };
   for (int look = 0; look < kMaxLooks && !begun(); ++look) ::usleep(kBetweenLooks);
   ASSERT_TRUE(begun());
@@ -133,6 +135,75 @@ TEST(CancelledEach, LeavesNothing) {
   EXPECT_EQ(result.error().code, ErrorCode::kCancelled);
   EXPECT_EQ(folder.names(), std::vector<std::string>{});
 }
+
+/// Rows of 200 sources, or their pairs, into a.npy.
+app::SolveArguments many_rows(const TemporaryDirectory& folder, bool pairs) {
+  app::SolveArguments arguments;
+  arguments.model = folder.path("model.ply");
+  arguments.sources.sources = {"random:200"};
+  arguments.settings.texts["threads"] = "1";
+  arguments.check.no_check = true;
+  arguments.outputs = {folder.path("a.npy")};
+  arguments.json = folder.path("a.json");
+  (pairs ? arguments.pairs : arguments.each) = true;
+  return arguments;
+}
+
+/// Ends the work between two chunks, when rows have come for long enough to be kept.
+void end_early(const app::SolveArguments& arguments) {
+  constexpr int kLongEnough = 2'100'000;  // microseconds
+  constexpr double kUntil = 0.6;          // of the work: some chunks are solved by then
+  bool waited = false;
+  const auto progress = [&](std::string_view stage, double share) {
+    if (stage.find("200 sources") == std::string_view::npos) return true;
+    if (!std::exchange(waited, true)) ::usleep(kLongEnough);
+    return share < kUntil;
+  };
+  const auto result = app::run_solve(arguments, FakeDrawing(), progress);
+  ASSERT_FALSE(result);
+  EXPECT_EQ(result.error().code, ErrorCode::kCancelled);
+}
+
+/// How many rows of a whole run were there before it.
+int rows_before(const app::SolveArguments& arguments) {
+  const auto result = app::run_solve(arguments, FakeDrawing());
+  EXPECT_TRUE(result) << sentence(result.error());
+  return Json::parse(bytes_of(arguments.json)).value("done_before", 0);
+}
+
+class KeptRows : public testing::TestWithParam<bool> {
+ protected:
+  KeptRows() {
+    run_program(folder.path("."), {"generate", "bunny", "--faces", "2000", "-o", "model.ply"});
+  }
+  TemporaryDirectory folder;
+};
+
+TEST_P(KeptRows, AreNotSolvedForAgainAndTheFileIsTheSame) {
+  const auto arguments = many_rows(folder, GetParam());
+  EXPECT_EQ(rows_before(arguments), 0);
+  const std::string whole = bytes_of(folder.path("a.npy"));
+  end_early(arguments);
+  EXPECT_EQ(bytes_of(folder.path("a.npy")), whole);  // until there is another
+  EXPECT_TRUE(std::filesystem::exists(folder.path("a.npy.part")));
+  std::filesystem::remove(folder.path("a.npy"));
+  EXPECT_GE(rows_before(arguments), 16);
+  EXPECT_EQ(bytes_of(folder.path("a.npy")), whole);
+  EXPECT_EQ(folder.names(), (std::vector<std::string>{"a.json", "a.npy", "model.ply"}));
+}
+
+TEST_P(KeptRows, AreOfNoUseToOtherSourcesAndAnotherModel) {
+  auto arguments = many_rows(folder, GetParam());
+  end_early(arguments);
+  arguments.sources.sources = {"random:200:7"};
+  EXPECT_EQ(rows_before(arguments), 0);
+  end_early(arguments);
+  run_program(folder.path("."), {"generate", "sleeve", "--faces", "2000", "-o", "model.ply"});
+  EXPECT_EQ(rows_before(arguments), 0);
+}
+
+INSTANTIATE_TEST_SUITE_P(Of, KeptRows, testing::Bool(),
+                         [](const auto& test) { return test.param ? "Pairs" : "Each"; });
 
 TEST(RoomForMany, IsAskedBeforeTheWork) {
   constexpr double kMoreThanAnyDisk = 1e24;
