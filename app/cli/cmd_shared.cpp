@@ -39,32 +39,61 @@ struct SharedWork {
   bool is_heat() const { return asked.options.method == MethodKind::kHeat; }
 };
 
+/// What ranks take of a setting that they know; without values, whatever there is.
+struct TakenSetting {
+  std::string_view name;
+  std::vector<std::string_view> values = {};
+};
+
+/// Of all others in the table they take the default alone.
+const std::vector<TakenSetting>& taken_settings() {
+  static const std::vector<TakenSetting> taken = {
+      {"method", {"heat", "wavefront"}},
+      {"backend"},
+      {"time-step"},
+      {"time-factor"},
+      {"boundary", {"neumann"}},
+      {"laplacian", {"cotan", "intrinsic-delaunay"}},
+      {"variant"},
+      {"precision"},
+      {"strict"},  // nothing takes over from a backend here
+      {"threads"},
+      {"domain", {"triangles"}},
+      {"format", {"ply"}},
+  };
+  return taken;
+}
+
+Error for_one_process(const std::string& what, const std::string& takes = {}) {
+  return {ErrorCode::kBadInput, what + " is for one process, not for a mesh that ranks share" +
+                                    (takes.empty() ? "" : ", which takes " + takes) +
+                                    "; leave it out, or start without mpirun"};
+}
+
+/// Errors: kBadInput, the first setting that is neither the default nor taken.
+Result<void> refuse_other_settings(const ViewerState& asked) {
+  const ViewerState usual;
+  for (const Setting& setting : settings()) {
+    if (!setting.of_method()) continue;
+    const std::string value = setting.get(asked), by_default = setting.get(usual);
+    if (value == by_default) continue;
+    const auto taken = std::ranges::find(taken_settings(), setting.name, &TakenSetting::name);
+    std::string values;
+    if (taken != taken_settings().end()) {
+      if (taken->values.empty() || std::ranges::count(taken->values, value) > 0) continue;
+      for (const std::string_view each : taken->values) {
+        values += (values.empty() ? "" : ", ") + std::string(each);
+      }
+    }
+    return for_one_process("--" + std::string(setting.name) + ' ' + one_line(value), values);
+  }
+  return {};
+}
+
 /// Names the first thing that was asked for and that one process alone does. Errors: kBadInput.
 Result<void> refuse_what_one_does(const SolveArguments& a, const ViewerState& asked) {
-  const MethodOptions& options = asked.options;
-  const ModelReading& reading = asked.reading;
-  const HeatOptions usual;
-  const bool other_laplacian = options.laplacian != LaplacianKind::kAuto &&
-                               options.laplacian != LaplacianKind::kCotan &&
-                               options.laplacian != LaplacianKind::kIntrinsicDelaunay;
-  const bool other_boundary =
-      options.boundary != BoundaryRule::kAuto && options.boundary != BoundaryRule::kNeumann;
-  const bool other_format = !reading.format.empty() && reading.format != "ply";
-  const bool other_domain =
-      reading.domain != ModelDomain::kAuto && reading.domain != ModelDomain::kTriangles;
+  if (auto taken = refuse_other_settings(asked); !taken) return taken;
   const std::pair<bool, const char*> kept[] = {
-      {options.method != MethodKind::kHeat && options.method != MethodKind::kWavefront,
-       "--method other than heat and wavefront"},
-      {options.refine > 0, "--refine"},
-      {options.constraint != usual.constraint, "--constraint other than pin-sources"},
-      {options.heat != usual.heat, "--heat other than unit"},
-      {other_boundary, "--boundary other than neumann"},
-      {other_laplacian, "--laplacian other than cotan and intrinsic-delaunay"},
-      {options.memory_limit_mb > 0, "--memory-limit"},
-      {other_format, "--format other than ply"},
-      {other_domain, "--domain other than triangles"},
-      {reading.weld.has_value(), "--weld"},
-      {!reading.mask.empty(), "--mask"},
       {a.check.check, "--check"},
       {a.check.on_poor == "better", "--on-poor better"},
       {!a.fields.empty(), "--fields"},
@@ -73,14 +102,12 @@ Result<void> refuse_what_one_does(const SolveArguments& a, const ViewerState& as
       {!a.max_distance.empty(), "--max-distance"},
       {!a.targets.empty(), "--target"},
       {!a.sequence.frames.empty(), "--sequence"},
+      {a.sequence.skip_bad, "--skip-bad"},
       {a.symmetric, "--symmetric"},
       {a.sources.curve, "--curve"},
   };
   for (const auto& [asked_for, what] : kept) {
-    if (!asked_for) continue;
-    return Error{ErrorCode::kBadInput, std::string(what) +
-                                           " is for one process, not for a mesh that ranks "
-                                           "share; leave it out, or start without mpirun"};
+    if (asked_for) return for_one_process(what);
   }
   for (const std::string& path : a.outputs) {
     if (io::file_extension(path) == ".npy") continue;
@@ -113,7 +140,8 @@ Result<std::vector<GlobalIndex>> vertices_in(const SourceArguments& arguments,
     if (list == nullptr || list->offset != 0) {
       return Error{source.blame, source.where +
                                      ": sources of a mesh that ranks share are vertices by their "
-                                     "numbers or random ones, without offsets"};
+                                     "numbers or random ones, without offsets; give such, or "
+                                     "start without mpirun"};
     }
     const GlobalIndex last = std::ranges::max(list->vertices);
     if (last >= vertices) {
@@ -339,6 +367,9 @@ Result<CommandOutput> run_shared(const SolveArguments& arguments, const Progress
   CommandOutput out;
   if (!ranks->is_first()) return out;
   out.warnings = answer->warnings;
+  SettingArguments used = arguments.settings;
+  used.texts.erase("backend");  // by which ranks were asked to share the mesh
+  note_unused_settings(used, work->asked.options, out.warnings);
   MeshSummary mesh;
   mesh.components = answer->components;
   mesh.unreferenced_vertices = static_cast<Index>(answer->loose);

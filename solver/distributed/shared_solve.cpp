@@ -7,10 +7,11 @@
 #include <memory>
 #include <utility>
 
-#include "solver/accuracy/check_heat.h"
+#include "solver/core/memory.h"
 #include "solver/core/parallel.h"
 #include "solver/core/stopwatch.h"
 #include "solver/core/text.h"
+#include "solver/distributed/shared_answer.h"
 #include "solver/distributed/shared_heat.h"
 #include "solver/distributed/shared_notes.h"
 #include "solver/distributed/shared_poisson.h"
@@ -19,165 +20,15 @@
 namespace geotherm {
 namespace {
 
-/// Of the largest distance: values below 0 by less are what the solver leaves of a 0.
-constexpr double kRoundOffOfDistance = 1e-6;
 /// Rings that a block solves for beside its own vertices, where t is the square of the mean edge,
 /// and the most of them.
 constexpr double kRings = 16;
 constexpr int kMaxRings = 64;
 /// The same for waves: flips near a block's edge reach no farther.
 constexpr int kRingsOfWaves = 6;
-constexpr double kBand = 0.5;  // of waves, in mean edges: in wider ones fits see more old values
-
-/// What is asked of a block's faces after the heat step: its divergence, and figures at the end.
-class BlockFaces {
- public:
-  BlockFaces(const SharedTask& task, const SharedHeat& heat, const MeshBlock& block,
-             SourceAnchors anchors)
-      : task_(task),
-        block_(block),
-        anchors_(std::move(anchors)),
-        given_(field_of(task, heat, block)),
-        field_(*block.surface, given_.heat, given_.t, {pool_, task.threads}, given_.extent) {}
-
-  /// Of own vertices, in MeshPart::unit.
-  void add_divergence(std::vector<double>& b) const {
-    const Block divergence = field_.divergence({&anchors_, 1});
-    for (Index here = 0; here < block_.own(); ++here) {
-      const Index row = block_.row(here);
-      if (row != kNoIndex) b[block_.vertex[here]] = divergence(row, 0) * block_.surface->unit;
-    }
-  }
-
-  struct Sums {
-    CellCounts cells;
-    Quality quality;
-    double error = 0, area = 0;  ///< eikonal, by area
-    double left = 0, given = 0;  ///< squares of L phi - b and of b
-  };
-
-  /// `phi`, `b`: of vertices of the part, in MeshPart::unit.
-  Sums inspect(const std::vector<double>& phi, const std::vector<double>& b) const {
-    const Surface& surface = *block_.surface;
-    const OperatorMesh& mesh = *surface.operators;
-    std::vector<double> here(static_cast<std::size_t>(surface.size())), product(here.size());
-    for (Index row = 0; row < surface.size(); ++row) {
-      here[row] = phi[block_.part_vertex(row)] / surface.unit;
-    }
-    SourceAnchors anchors = anchors_;
-    anchors.components.clear();
-    const auto reached = block_.per_component(
-        task_.components, [&](Index c) { return task_.reached[static_cast<std::size_t>(c)]; });
-    for (std::size_t c = 0; c < reached.size(); ++c) {
-      if (reached[c]) anchors.components.push_back(static_cast<Index>(c));
-    }
-    Sums out;
-    const std::vector<char> own = own_faces(task_.part, block_);
-    out.cells = field_.inspect(here, anchors, own, task_.threads, out.quality);
-    const double square = surface.unit * surface.unit;
-    for (Index f = 0; f < mesh.face_count(); ++f) {
-      if (!own[f] || !reached[mesh.components.of[mesh.faces[f][0]]]) continue;
-      out.area += mesh.layout[f].base * mesh.layout[f].height * square / 2;
-    }
-    out.error = out.quality.eikonal_error_mean * out.area;
-    surface.apply_stiffness(here, product, task_.threads);
-    for (Index v = block_.first; v < block_.end; ++v) {
-      const Index row = block_.row(v - block_.first);
-      if (row == kNoIndex || is_pinned(task_, v)) continue;
-      const double left = product[row] * surface.unit - b[v];
-      out.left += left * left;
-      out.given += b[v] * b[v];
-    }
-    return out;
-  }
-
- private:
-  const SharedTask& task_;
-  const MeshBlock& block_;
-  mutable BlockPool pool_;
-  SourceAnchors anchors_;
-  BlockField given_;
-  FaceField field_;
-};
-
-/// |M u - b| / |b| that what is no news may leave (shared_heat.h): 1e-6 of the terms of the rows at
-/// the edges of blocks, of which those near a source are as large as b, a few together.
-constexpr double kUsualHeatResidual = 1e-5;
-
-/// Makes distances of phi, of own vertices, and what there is to say about them.
-std::vector<double> distances_of(const SharedTask& task, const std::vector<double>& phi,
-                                 SharedAnswer& out) {
-  std::vector<double> distances(static_cast<std::size_t>(task.part.own), kUnreached);
-  double most = 0, sum = 0, unreached = 0, clamped = 0;
-  std::array<double, 1> least = {kUnreached};
-  for (Index v = 0; v < task.part.own; ++v) {
-    const Index component = task.components.of[v];
-    if (component == kNoIndex || !task.reached[static_cast<std::size_t>(component)]) {
-      ++unreached;
-      continue;
-    }
-    distances[v] = std::max(phi[v], 0.0);
-    most = std::max(most, distances[v]);
-    least[0] = std::min(least[0], distances[v]);
-    sum += distances[v];
-  }
-  out.most = task.ranks.most(most);
-  task.ranks.combine(least, RankGroup::Combination::kLeast);
-  out.least = least[0];
-  out.unreached = static_cast<GlobalIndex>(task.ranks.sum(unreached));
-  const auto reached = static_cast<double>(task.part.vertices - out.unreached);
-  out.mean = task.ranks.sum(sum) / reached;
-  for (Index v = 0; v < task.part.own; ++v) {
-    clamped += distances[v] < kUnreached && phi[v] < -kRoundOffOfDistance * out.most ? 1 : 0;
-  }
-  out.quality.clamped_vertices = static_cast<Index>(task.ranks.sum(clamped));
-  return distances;
-}
-
-/// The quality figures, and what a person should know of them.
-Result<void> check_answer(const SharedTask& task, const std::vector<BlockFaces*>& faces,
-                          const SharedHeat& heat, std::vector<double> phi,
-                          const std::vector<double>& b, std::vector<double>& distances,
-                          SharedAnswer& out) {
-  phi.resize(static_cast<std::size_t>(task.part.size()), 0.0);
-  Halo(task.ranks, task.part, heat.beside).fetch(task.ranks, phi);
-  std::array<double, 8> sums{};
-  std::array<double, 1> steepest{};
-  for (const BlockFaces* const block : faces) {
-    const auto part = block->inspect(phi, b);
-    const std::array<double, 8> here = {part.error,
-                                        part.area,
-                                        part.left,
-                                        part.given,
-                                        static_cast<double>(part.cells.in_reach),
-                                        static_cast<double>(part.cells.without_direction),
-                                        static_cast<double>(part.quality.zero_gradient_faces),
-                                        static_cast<double>(part.quality.steep_edges)};
-    for (std::size_t k = 0; k < sums.size(); ++k) sums[k] += here[k];
-    steepest[0] = std::max(steepest[0], part.quality.steepest_edge);
-  }
-  task.ranks.combine(sums, RankGroup::Combination::kSum);
-  task.ranks.combine(steepest, RankGroup::Combination::kMost);
-  Quality& q = out.quality;
-  q.eikonal_error_mean = sums[1] > 0 ? sums[0] / sums[1] : 0.0;
-  q.poisson_residual = sums[3] > 0 ? std::sqrt(sums[2] / sums[3]) : 0.0;
-  q.heat_residual = heat.residual;
-  q.zero_gradient_faces = static_cast<Index>(sums[6]);
-  q.steep_edges = static_cast<Index>(sums[7]);
-  q.steepest_edge = steepest[0];
-  q.edges_checked = true;
-  DistanceResult result;
-  result.quality = q;
-  result.distances = std::move(distances);
-  check_lines(task, result);
-  distances = std::move(result.distances);
-  q = result.quality;
-  const CellCounts cells = {static_cast<Index>(sums[4]), static_cast<Index>(sums[5])};
-  const auto assessed =
-      assess_heat(task.options, task.times.extreme, cells, result, kUsualHeatResidual);
-  out.warnings = std::move(result.warnings);
-  return assessed;
-}
+/// Of waves, in mean edges: half of a bucket of the front in one process. In wider ones fits see
+/// more old values, and errors on good planes are five times as large; narrower ones gain nothing.
+constexpr double kBand = 0.25;
 
 /// Distances of own vertices to those who have their share of the file.
 void hand_over(const RankGroup& ranks, const MeshPart& part, const std::vector<double>& distances,
@@ -342,6 +193,7 @@ Result<SharedAnswer> solve_over_ranks(const RankGroup& ranks, const std::string&
     lap();
     waves = wave_over_ranks(ranks, part, *blocks, *is_source, kBand * components.mean_edge);
     waves_ms = lap();
+    release_freed_memory();  // of which factors would leave holes
   }
   std::vector<SourceAnchors> anchors(blocks->size());
   for (std::size_t k = 0; k < blocks->size(); ++k) {
@@ -362,6 +214,7 @@ Result<SharedAnswer> solve_over_ranks(const RankGroup& ranks, const std::string&
     if (block.heat) factor_bytes += static_cast<double>(block.heat->factor().stats().bytes);
     block.heat = nullptr;
   }
+  release_freed_memory();
   out.factor_mb = ranks.most(factor_bytes) / (1024.0 * 1024.0);
   out.timing.diffuse = lap();
   std::vector<std::unique_ptr<BlockFaces>> fields;

@@ -145,7 +145,7 @@ refused 2 'no such folder\|No such file\|folder' "$program" solve plane.ply -s 0
 refused 2 'binary .ply' "$program" solve bunny.obj -s 0 "${solve[@]}"
 for option in --check --labels '--target 3' '--max-distance 1' '--weld 0.1' '--boundary dirichlet' \
   '--method exact' '--constraint pin-vertex' '--heat hold' '--laplacian refined' '--memory-limit 99' \
-  '--fields all' '--refine 1' '--on-poor better'; do
+  '--fields all' '--refine 1' '--on-poor better' '--grid mask' '--domain polygons' '--mask no.txt'; do
   # A launcher's words alone make it one rank, without the time that mpirun takes.
   # shellcheck disable=SC2086
   if PMI_RANK=0 PMI_SIZE=1 "$program" solve plane.ply -s 0 $option "${solve[@]}" >out 2>said; then fail "$option"; fi
