@@ -39,10 +39,15 @@ constexpr double kAnswersOfVertex = 2 * 2 * 16 * sizeof(double);
 /// One mesh over ranks (docs/large_scale.md): what a rank has before, and of each vertex it owns;
 /// torus of a million faces, half a million vertices a rank.
 constexpr double kRankBytes = 56 * kMegabyte, kShareBytes = 1150;
-/// Seconds of a processor for a vertex of a rank, plane of 1.1M faces on one rank: to read and
-/// share out; blocks with their factors; one solve of a block; BoomerAMG, and an iteration with it.
+/// Seconds of a processor for a vertex of a rank (scripts/plan_rates.sh measures them): to read and
+/// share out; blocks with their factors; one solve of a block; BoomerAMG, and an iteration with it;
+/// blocks for waves, and these.
 constexpr double kSharing = 1.0e-6, kBlocks = 3.2e-6, kBlockSolve = 0.2e-6, kAmg = 2.4e-6,
-                 kIteration = 0.25e-6;
+                 kIteration = 0.25e-6, kCutting = 1.9e-6, kWaves = 1.0e-6;
+/// Exchanges of waves for each mean edge of the longest distance (bands and what they need
+/// beyond one each), and that distance where a surface is about as long as wide: from one corner of
+/// a square to the other, in edges of which half are diagonals.
+constexpr double kExchanges = 2.4, kLongest = 1.22;
 /// On good meshes 9 to 14.
 constexpr double kIterations = 15;
 /// How often a block solves: 4.4 times of 16 blocks, and as blocks^0.15 with more (6.7 of 256).
@@ -63,6 +68,7 @@ Result<double> whole_number(const std::string& text, const char* option) {
 struct SharedPlan {
   double own, blocks, rounds, bytes;
   double sharing, setup, heat, poisson;  ///< seconds; set-up without the sharing
+  double cutting, waves, exchanges;      ///< of the method wavefront, in place of the last three
 };
 
 /// One source on a mesh that ranks share.
@@ -79,7 +85,11 @@ SharedPlan plan_shared(double vertices, double ranks) {
           .sharing = kSharing * own,
           .setup = kBlocks * own,
           .heat = solves * kBlockSolve * own / blocks_of_rank,
-          .poisson = (kAmg + kIterations * kIteration) * own};
+          .poisson = (kAmg + kIterations * kIteration) * own,
+          .cutting = kCutting * own,
+          // The front passes as many shares one after the other.
+          .waves = kWaves * own * std::sqrt(ranks),
+          .exchanges = std::ceil(kExchanges * kLongest * std::sqrt(vertices))};
 }
 
 }  // namespace
@@ -165,6 +175,9 @@ Result<CommandOutput> run_plan(const PlanArguments& arguments) {
       json["plan"]["sharing_seconds"] = share.sharing;
       json["plan"]["heat_seconds"] = share.heat;
       json["plan"]["poisson_seconds"] = share.poisson;
+      json["plan"]["waves_setup_seconds"] = share.sharing + share.cutting;
+      json["plan"]["waves_seconds"] = share.waves;
+      json["plan"]["waves_exchanges"] = share.exchanges;
     }
     const auto written = outputs.write_text(arguments.json, report_text(json), out.text);
     if (!written) return written.error();
@@ -193,6 +206,12 @@ Result<CommandOutput> run_plan(const PlanArguments& arguments) {
                                               seconds_in_words(share.poisson) +
                                               "; without waiting for the network"
                                         : "")});
+  if (shared) {
+    table.add_row({"by waves", "set-up " + seconds_in_words(share.sharing + share.cutting) +
+                                   ", query " + seconds_in_words(share.waves) + " and about " +
+                                   count(share.exchanges) +
+                                   " waits for the network, in place of heat and Poisson"});
+  }
   table.add_row({"array", bytes_in_words(file) + ", half of it as float32"});
   out.text = table.text();
   out.made = outputs.made();

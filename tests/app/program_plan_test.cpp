@@ -45,6 +45,15 @@ TEST_F(PlanProgram, SharesOneMeshOfOneSource) {
   expect_refused({"plan", "--vertices", "1e10", "--ranks", "9"}, "2,147,483,647");
 }
 
+TEST_F(PlanProgram, LetsWavesPassSharesOneAfterTheOther) {
+  const Json few = plan({"--vertices", "4e6", "--ranks", "4"});
+  const Json many = plan({"--vertices", "4e6", "--ranks", "16"});
+  EXPECT_NEAR(few["waves_seconds"], 2.0 * double{many["waves_seconds"]}, 1e-9);
+  EXPECT_EQ(few["waves_exchanges"], many["waves_exchanges"]);
+  const Json longer = plan({"--vertices", "16e6", "--ranks", "16"});
+  EXPECT_NEAR(longer["waves_exchanges"], 2.0 * double{few["waves_exchanges"]}, 1.0);
+}
+
 TEST_F(PlanProgram, CountsTheRoundsThatRanksWaitFor) {
   const Json few = plan({"--vertices", "300000", "--ranks", "2"});
   const Json many = plan({"--vertices", "1.5e8", "--ranks", "1000"});
