@@ -13,7 +13,8 @@ for judge in lintian desktop-file-validate appstreamcli update-mime-database hel
 done
 rm -rf "$folder"
 mkdir -p "$folder"
-(cd "$build" && cpack -G DEB -B "$folder/made")
+# What is inside is judged: xz, by which they are shipped, takes ten times as long.
+(cd "$build" && cpack -G DEB -D CPACK_DEBIAN_COMPRESSION_TYPE=gzip -B "$folder/made")
 lintian --allow-root --fail-on error "$folder"/made/*.deb
 
 for package in "$folder"/made/*.deb; do dpkg-deb -x "$package" "$folder/root"; done
