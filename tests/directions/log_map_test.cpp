@@ -22,9 +22,8 @@ MethodOptions with_method(MethodKind kind) {
   return options;
 }
 
-constexpr double kPi = std::numbers::pi;
 /// What exact answers may be off by, as a share of the size.
-constexpr double kExact = 1e-9;
+constexpr double kLogExact = 1e-9;
 /// What waves may be off by on average.
 constexpr double kWaves = 1e-3;
 
@@ -40,10 +39,10 @@ LogMap log_map(const MeshPtr& mesh, const SurfacePoint& point, const LogMapOptio
 void expect_plane(const MeshPtr& mesh, const SurfacePoint& point) {
   const LogMap map = log_map(mesh, point);
   const Vec3 middle = position_at(*mesh, point);
-  EXPECT_NEAR(map.frame.normal.z(), 1, kExact);
+  EXPECT_NEAR(map.frame.normal.z(), 1, kLogExact);
   for (Index v = 0; v < mesh->vertex_count(); ++v) {
     const Vec3 found = map.frame.vector(map.directions[v], map.distances[v]);
-    EXPECT_NEAR((middle + found - mesh->positions()[v]).norm(), 0, kExact) << v;
+    EXPECT_NEAR((middle + found - mesh->positions()[v]).norm(), 0, kLogExact) << v;
   }
 }
 
@@ -105,10 +104,10 @@ TEST(LogMap, FollowsTheFileWhereFacesAreTurnedRound) {
   for (const Index face : {30, 31, 32}) {
     const SurfacePoint point = SurfacePoint::in_face(face, {0.2, 0.5, 0.3});
     const LogMap map = log_map(mesh, point);
-    EXPECT_NEAR(map.frame.normal.z(), face % 3 == 0 ? -1 : 1, kExact);
+    EXPECT_NEAR(map.frame.normal.z(), face % 3 == 0 ? -1 : 1, kLogExact);
     for (Index v = 0; v < mesh->vertex_count(); ++v) {
       const Vec3 found = map.frame.vector(map.directions[v], map.distances[v]);
-      EXPECT_NEAR((position_at(*mesh, point) + found - mesh->positions()[v]).norm(), 0, kExact);
+      EXPECT_NEAR((position_at(*mesh, point) + found - mesh->positions()[v]).norm(), 0, kLogExact);
     }
   }
 }
@@ -125,7 +124,8 @@ Cone cone(Index sectors, double mean, double zigzag) {
   Draft draft;
   draft.add(Vec3::Zero());
   for (Index k = 0; k < sectors; ++k) {
-    const double turn = 2 * kPi * k / sectors, up = mean + (k % 2 == 0 ? zigzag : -zigzag);
+    const double turn = 2 * std::numbers::pi * k / sectors,
+                 up = mean + (k % 2 == 0 ? zigzag : -zigzag);
     draft.add({std::cos(turn) * std::cos(up), std::sin(turn) * std::cos(up), std::sin(up)});
     draft.faces.push_back({0, 1 + k, 1 + (k + 1) % sectors});
   }
@@ -152,12 +152,13 @@ TEST(LogMap, AboutTheTipOfAConeIsTheConeUnrolledAndScaled) {
   for (const auto& [mean, zigzag] : {std::pair{0.8, 0.0}, {0.0, 0.9}}) {
     const Cone shape = cone(6, mean, zigzag);
     const LogMap map = log_map(shape.mesh, SurfacePoint::at_vertex(0));
-    EXPECT_NEAR(map.frame.angle, shape.total, kExact);
+    EXPECT_NEAR(map.frame.angle, shape.total, kLogExact);
     for (std::size_t v = 2; v < shape.places.size(); ++v) {
-      EXPECT_NEAR(map.distances[v], shape.places[v].first, kExact) << v;
+      EXPECT_NEAR(map.distances[v], shape.places[v].first, kLogExact) << v;
       const double turn = shape.places[v].second - shape.places[1].second;
-      const double off = 2 * kPi / shape.total * turn - (map.directions[v] - map.directions[1]);
-      EXPECT_NEAR(std::remainder(off, 2 * kPi), 0, kExact) << v;
+      const double off =
+          2 * std::numbers::pi / shape.total * turn - (map.directions[v] - map.directions[1]);
+      EXPECT_NEAR(std::remainder(off, 2 * std::numbers::pi), 0, kLogExact) << v;
     }
   }
 }
@@ -173,26 +174,28 @@ void expect_cone_beside_tip(const Cone& shape) {
   ASSERT_TRUE(source);
   ASSERT_LT(source->distance, 1e-12);
   const LogMap map = log_map(shape.mesh, source->point);
-  EXPECT_NEAR(map.distances[0], kRadius, kExact);
+  EXPECT_NEAR(map.distances[0], kRadius, kLogExact);
   int bent = 0;
   for (std::size_t v = 1; v < shape.places.size(); ++v) {
     const auto [radius, angle] = shape.places[v];
     const double turn = std::remainder(angle - kAngle, shape.total);
     // Where two paths are equally short, either is right.
-    if (shape.total < 2 * kPi && std::abs(turn) > shape.total / 2 - 1e-6) continue;
-    const double seen = std::remainder(map.directions[v] - map.directions[0], 2 * kPi);
-    if (std::abs(turn) >= kPi) {
-      EXPECT_NEAR(map.distances[v], kRadius + radius, kExact) << v;
-      EXPECT_NEAR(seen, 0, kExact) << v;
+    if (shape.total < 2 * std::numbers::pi && std::abs(turn) > shape.total / 2 - 1e-6) continue;
+    const double seen = std::remainder(map.directions[v] - map.directions[0], 2 * std::numbers::pi);
+    if (std::abs(turn) >= std::numbers::pi) {
+      EXPECT_NEAR(map.distances[v], kRadius + radius, kLogExact) << v;
+      EXPECT_NEAR(seen, 0, kLogExact) << v;
       ++bent;
       continue;
     }
     // From the source towards the tip is the first axis.
     const double along = kRadius - radius * std::cos(turn), beside = -radius * std::sin(turn);
-    EXPECT_NEAR(map.distances[v], std::hypot(along, beside), kExact) << v;
-    EXPECT_NEAR(std::remainder(seen - std::atan2(beside, along), 2 * kPi), 0, kExact) << v;
+    EXPECT_NEAR(map.distances[v], std::hypot(along, beside), kLogExact) << v;
+    EXPECT_NEAR(std::remainder(seen - std::atan2(beside, along), 2 * std::numbers::pi), 0,
+                kLogExact)
+        << v;
   }
-  EXPECT_EQ(bent > 0, shape.total > 2 * kPi);
+  EXPECT_EQ(bent > 0, shape.total > 2 * std::numbers::pi);
 }
 
 TEST(LogMap, BesideTheTipOfAConeIsExact) { expect_cone_beside_tip(cone(6, 0.8, 0)); }
@@ -273,7 +276,7 @@ TEST(LogMap, PassesTheSeamOfAMoebiusStrip) {
   const LogMap map = log_map(mesh, SurfacePoint::at_vertex(12));
   const auto directions = *Directions::build(mesh);
   for (Index v = 0; v < mesh->vertex_count(); ++v) {
-    EXPECT_NEAR(map.distances[v], distances->distances[v], kExact);
+    EXPECT_NEAR(map.distances[v], distances->distances[v], kLogExact);
     EXPECT_TRUE(std::isfinite(map.directions[v])) << v;
   }
 }
@@ -329,7 +332,7 @@ TEST_P(LogMapOnBroken, MeshesIsFiniteOrOneSentence) {
         const double d = distances->distances[w];
         EXPECT_EQ(std::isfinite(map->directions[w]), std::isfinite(d)) << broken.recipe;
         if (!std::isfinite(d)) continue;
-        EXPECT_NEAR(map->distances[w], d, kExact * size) << broken.recipe;
+        EXPECT_NEAR(map->distances[w], d, kLogExact * size) << broken.recipe;
       }
     }
   }

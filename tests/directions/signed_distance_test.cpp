@@ -13,7 +13,7 @@
 namespace geotherm::test {
 namespace {
 
-constexpr double kExact = 1e-9;
+constexpr double kSignedExact = 1e-9;
 /// The figure that was asked for, as a share of the radius.
 constexpr double kCircle = 1e-3;
 
@@ -56,8 +56,8 @@ void expect_square(const MeshPtr& mesh, double a, double b) {
   const SignedDistance back = distance_to(mesh, {reversed(loop)}, SideRule::kSides);
   for (Index v = 0; v < mesh->vertex_count(); ++v) {
     const double want = to_square(mesh->positions()[v], a, b);
-    EXPECT_NEAR(found.distances[v], want, kExact) << v;
-    EXPECT_NEAR(back.distances[v], -want, kExact) << v;
+    EXPECT_NEAR(found.distances[v], want, kSignedExact) << v;
+    EXPECT_NEAR(back.distances[v], -want, kSignedExact) << v;
   }
 }
 

@@ -14,8 +14,7 @@
 namespace geotherm::test {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-constexpr double kExact = 1e-9;
+constexpr double kTraceExact = 1e-9;
 
 std::shared_ptr<const Directions> directions_on(const MeshPtr& mesh) {
   auto built = Directions::build(mesh);
@@ -33,7 +32,7 @@ TracedLine traced(const Directions& directions, const SurfacePoint& from, double
 /// The pieces add up to the length, and each lies in its face.
 void expect_sound(const TriangleMesh& mesh, const TracedLine& line, double size) {
   EXPECT_EQ(line.path.points.size(), line.path.faces.size() + 1);
-  EXPECT_NEAR(length_of(mesh, line.path.points), line.path.length, kExact * size);
+  EXPECT_NEAR(length_of(mesh, line.path.points), line.path.length, kTraceExact * size);
 }
 
 class TracedOnThePlane : public testing::TestWithParam<SurfacePoint> {};
@@ -47,7 +46,8 @@ TEST_P(TracedOnThePlane, LinesAreStraight) {
   const Vec3 from = position_at(*mesh, GetParam());
   for (const double length : {0.0, 0.05, 0.3, 2.0}) {
     for (int i = 0; i < 40; ++i) {
-      const double angle = frame->border ? frame->angle * (i + 0.5) / 40 : 0.1 + 2 * kPi * i / 40;
+      const double angle =
+          frame->border ? frame->angle * (i + 0.5) / 40 : 0.1 + 2 * std::numbers::pi * i / 40;
       const Vec3 way = frame->vector(angle);
       double most = std::numeric_limits<double>::infinity();
       for (int k = 0; k < 2; ++k) {
@@ -56,14 +56,14 @@ TEST_P(TracedOnThePlane, LinesAreStraight) {
       }
       const TracedLine line = traced(*directions, GetParam(), angle, length);
       EXPECT_EQ(line.end, length <= most ? TraceEnd::kLength : TraceEnd::kBorder);
-      EXPECT_NEAR(line.path.length, std::min(length, most), kExact);
+      EXPECT_NEAR(line.path.length, std::min(length, most), kTraceExact);
       const Vec3 to = position_at(*mesh, line.path.points.back());
-      EXPECT_NEAR((to - from - std::min(length, most) * way).norm(), 0, kExact);
+      EXPECT_NEAR((to - from - std::min(length, most) * way).norm(), 0, kTraceExact);
       expect_sound(*mesh, line, 1);
       if (std::isnan(line.direction)) continue;
       const auto last = directions->frame_at(line.path.points.back());
       ASSERT_TRUE(last);
-      EXPECT_NEAR((last->vector(line.direction) - way).norm(), 0, kExact);
+      EXPECT_NEAR((last->vector(line.direction) - way).norm(), 0, kTraceExact);
     }
   }
 }
@@ -85,10 +85,10 @@ TEST(Traced, LinesPassVerticesOfAGridStraight) {
   const auto frame = directions->frame_at(middle);
   ASSERT_TRUE(frame);
   for (int i = 0; i < 8; ++i) {
-    const TracedLine line = traced(*directions, middle, i * kPi / 4, 0.4);
+    const TracedLine line = traced(*directions, middle, i * std::numbers::pi / 4, 0.4);
     const Vec3 to = position_at(*mesh, line.path.points.back());
-    const Vec3 want = Vec3(0.5, 0.5, 0) + frame->vector(i * kPi / 4, 0.4);
-    EXPECT_NEAR((to - want).norm(), 0, kExact) << i;
+    const Vec3 want = Vec3(0.5, 0.5, 0) + frame->vector(i * std::numbers::pi / 4, 0.4);
+    EXPECT_NEAR((to - want).norm(), 0, kTraceExact) << i;
     expect_sound(*mesh, line, 1);
   }
 }
@@ -101,13 +101,13 @@ TEST(Traced, LineWindsRoundACylinder) {
   const Index source = 5;  // on the lower end, from where directions are angles to the border
   const auto frame = directions->frame_at(SurfacePoint::at_vertex(source));
   ASSERT_TRUE(frame);
-  EXPECT_NEAR(frame->angle, kPi, kExact);
+  EXPECT_NEAR(frame->angle, std::numbers::pi, kTraceExact);
   const double steep = std::atan2(1.0, 3.0);  // a third of a turn's height for each turn
   const TracedLine line = traced(*directions, SurfacePoint::at_vertex(source), steep, 5);
   EXPECT_EQ(line.end, TraceEnd::kLength);
   const Vec3 to = position_at(*mesh, line.path.points.back());
   const auto low = std::ranges::min(draft.positions, {}, [](const Vec3& p) { return p.z(); });
-  EXPECT_NEAR(to.z() - low.z(), 5 * std::sin(steep), kExact);
+  EXPECT_NEAR(to.z() - low.z(), 5 * std::sin(steep), kTraceExact);
   expect_sound(*mesh, line, 5);
 }
 
@@ -115,9 +115,10 @@ TEST(Traced, LineRoundASphereComesBack) {
   const MeshPtr mesh = finish(sphere(5));
   const auto directions = directions_on(mesh);
   for (int i = 0; i < 6; ++i) {
-    const TracedLine line = traced(*directions, SurfacePoint::at_vertex(100), 0.3 + i, 2 * kPi);
+    const TracedLine line =
+        traced(*directions, SurfacePoint::at_vertex(100), 0.3 + i, 2 * std::numbers::pi);
     const Vec3 to = position_at(*mesh, line.path.points.back());
-    EXPECT_LT((to - mesh->positions()[100]).norm(), 0.001 * 2 * kPi) << i;
+    EXPECT_LT((to - mesh->positions()[100]).norm(), 0.001 * 2 * std::numbers::pi) << i;
   }
 }
 
@@ -149,7 +150,7 @@ TEST(Traced, LineFollowsAMoebiusStripOverItsSeam) {
   int reached = 0;
   for (Index v = 0; v < mesh->vertex_count(); ++v) {
     const TracedLine line =
-        traced(*directions, from, map->directions[v], map->distances[v] * (1 - kExact));
+        traced(*directions, from, map->directions[v], map->distances[v] * (1 - kTraceExact));
     const Vec3 to = position_at(*mesh, line.path.points.back());
     reached += (to - mesh->positions()[v]).norm() < 1e-6 ? 1 : 0;
   }
@@ -162,8 +163,8 @@ TEST(Traced, LineEndsWhereThreePagesMeet) {
   int split = 0;
   for (Index f = 0; f < mesh->face_count(); ++f) {
     for (int i = 0; i < 8; ++i) {
-      const TracedLine line =
-          traced(*directions, SurfacePoint::in_face(f, {0.3, 0.3, 0.4}), 0.05 + i * kPi / 4, 100);
+      const TracedLine line = traced(*directions, SurfacePoint::in_face(f, {0.3, 0.3, 0.4}),
+                                     0.05 + i * std::numbers::pi / 4, 100);
       EXPECT_NE(line.end, TraceEnd::kLength);
       split += line.end == TraceEnd::kSplit ? 1 : 0;
     }
@@ -208,7 +209,7 @@ TEST_P(TracedOnBroken, MeshesIsFiniteOrOneSentence) {
         EXPECT_EQ(line.error().message.find('\n'), std::string::npos) << broken.recipe;
         continue;
       }
-      EXPECT_LE(line->path.length, size * 3 * (1 + kExact)) << broken.recipe;
+      EXPECT_LE(line->path.length, size * 3 * (1 + kTraceExact)) << broken.recipe;
       for (const Vec3& p : positions_of(*shared, line->path)) {
         EXPECT_TRUE(p.allFinite()) << broken.recipe;
       }

@@ -19,8 +19,6 @@
 namespace geotherm::test {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-
 std::shared_ptr<const VectorHeat> vector_heat(const MeshPtr& mesh,
                                               const SpreadOptions& options = {}) {
   auto built = VectorHeat::build(mesh, options);
@@ -51,7 +49,7 @@ class DenseVectorHeat {
         laplacian(i, i) += weight, laplacian(j, j) += weight;
         laplacian(i, j) -= weight, laplacian(j, i) -= weight;
         const std::complex<double> turn =
-            std::polar(1.0, angle_of_.at({i, j}) - angle_of_.at({j, i}) + kPi);
+            std::polar(1.0, angle_of_.at({i, j}) - angle_of_.at({j, i}) + std::numbers::pi);
         connection(i, i) += weight, connection(j, j) += weight;
         connection(i, j) -= weight * turn, connection(j, i) -= weight * std::conj(turn);
       }
@@ -108,7 +106,7 @@ class DenseVectorHeat {
     for (Index v = 0; v < size_; ++v) {
       double begin = 0;
       const bool border = frames_[v].border;
-      const double scale = border ? 1 : 2 * kPi / sum[v];
+      const double scale = border ? 1 : 2 * std::numbers::pi / sum[v];
       for (Index to = frames_[v].first; !angle_of_.contains({v, to});) {
         angle_of_[{v, to}] = scale * begin;
         const auto face = third_.find({v, to});

@@ -16,8 +16,8 @@ using namespace geotherm::engine;
 using glm::vec2;
 using glm::vec3;
 
-constexpr float kPixel = 0.02F;  // what rounding of the matrices may move a point
-const vec2 kExtent(1280, 720);
+constexpr float kCentrePixel = 0.02F;  // what rounding of the matrices may move a point
+const vec2 kCentreExtent(1280, 720);
 
 struct Case {
   std::vector<vec3> points;  ///< within radius 1, as all models
@@ -53,16 +53,16 @@ TEST_P(OrbitCentre, LiesInTheMiddleOfWhatTheInsetsLeave) {
   const vec2 middle((10 + 1280 - 200) / 2.0F, (20 + 720 - 60) / 2.0F);
   for (unsigned seed = 0; seed < 300; ++seed) {
     const Case made = random_case(seed, GetParam());
-    const Camera camera = make_camera(made.orbit, made.points, kExtent, insets);
+    const Camera camera = make_camera(made.orbit, made.points, kCentreExtent, insets);
     const vec3 seen = camera.project(made.orbit.centre);
-    EXPECT_LE(glm::length(vec2(seen) - middle), kPixel) << seed;
+    EXPECT_LE(glm::length(vec2(seen) - middle), kCentrePixel) << seed;
   }
 }
 
 TEST_P(OrbitCentre, LeavesAllPointsBetweenNearAndFarPlane) {
   for (unsigned seed = 0; seed < 300; ++seed) {
     const Case made = random_case(seed, GetParam());
-    const Camera camera = make_camera(made.orbit, made.points, kExtent);
+    const Camera camera = make_camera(made.orbit, made.points, kCentreExtent);
     for (const vec3& p : made.points) {
       const glm::vec4 clip = camera.projection * (camera.view * glm::vec4(p, 1));
       ASSERT_GT(clip.w, 0) << seed;
@@ -77,19 +77,19 @@ TEST_P(OrbitCentre, LeavesAllPointsBetweenNearAndFarPlane) {
 TEST_P(OrbitCentre, HasASphereOfRadius1AboutItThatFits) {
   for (unsigned seed = 0; seed < 300; ++seed) {
     const Case made = random_case(seed, GetParam());
-    const Camera camera = make_camera(made.orbit, made.points, kExtent);
+    const Camera camera = make_camera(made.orbit, made.points, kCentreExtent);
     const float depth = -(camera.view * glm::vec4(made.orbit.centre, 1)).z;
     // The tangent of the angle under which the eye sees it, or its radius.
     const float half = GetParam() ? 1 : 1 / std::sqrt(depth * depth - 1);
-    EXPECT_NEAR(camera.pixels_per_unit * half, kExtent.y / 2, 0.2F) << seed;
+    EXPECT_NEAR(camera.pixels_per_unit * half, kCentreExtent.y / 2, 0.2F) << seed;
   }
 }
 
 TEST_P(OrbitCentre, AtTheOriginIsTheSphereOfTheModel) {
   Case made = random_case(3, GetParam());
   made.orbit.centre = vec3(0);
-  const Camera camera = make_camera(made.orbit, made.points, kExtent);
-  const Camera without = make_camera(made.orbit, {}, kExtent);
+  const Camera camera = make_camera(made.orbit, made.points, kCentreExtent);
+  const Camera without = make_camera(made.orbit, {}, kCentreExtent);
   EXPECT_EQ(camera.view, without.view);
   EXPECT_EQ(camera.pixels_per_unit, without.pixels_per_unit);
 }
@@ -97,9 +97,9 @@ TEST_P(OrbitCentre, AtTheOriginIsTheSphereOfTheModel) {
 TEST_P(OrbitCentre, MeansNothingToATightFit) {
   Case made = random_case(5, GetParam());
   made.orbit.fit = Fit::kTight;
-  const Camera with = make_camera(made.orbit, made.points, kExtent);
+  const Camera with = make_camera(made.orbit, made.points, kCentreExtent);
   made.orbit.centre = vec3(0);
-  const Camera without = make_camera(made.orbit, made.points, kExtent);
+  const Camera without = make_camera(made.orbit, made.points, kCentreExtent);
   EXPECT_EQ(with.view, without.view);
   EXPECT_EQ(with.projection, without.projection);
 }
@@ -109,9 +109,9 @@ TEST_P(OrbitCentre, ThatIsNoPointIsTheOrigin) {
   for (const float bad :
        {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity()}) {
     made.orbit.centre = {0.5F, bad, 0};
-    const Camera with = make_camera(made.orbit, made.points, kExtent);
+    const Camera with = make_camera(made.orbit, made.points, kCentreExtent);
     made.orbit.centre = vec3(0);
-    EXPECT_EQ(with.view, make_camera(made.orbit, made.points, kExtent).view);
+    EXPECT_EQ(with.view, make_camera(made.orbit, made.points, kCentreExtent).view);
   }
 }
 
@@ -119,9 +119,9 @@ TEST_P(OrbitCentre, ZoomsAndPansAboutItself) {
   Case made = random_case(9, GetParam());
   made.orbit.zoom = 4;
   made.orbit.pan = {0.25F, 0.125F};
-  const Camera camera = make_camera(made.orbit, made.points, kExtent);
+  const Camera camera = make_camera(made.orbit, made.points, kCentreExtent);
   const vec3 seen = camera.project(made.orbit.centre);
-  EXPECT_LE(glm::length(vec2(seen) - vec2(640 + 180, 360 - 90)), 4 * kPixel);
+  EXPECT_LE(glm::length(vec2(seen) - vec2(640 + 180, 360 - 90)), 4 * kCentrePixel);
 }
 
 INSTANTIATE_TEST_SUITE_P(Lenses, OrbitCentre, testing::Bool(), [](const auto& param_info) {

@@ -21,7 +21,7 @@ using glm::vec2;
 using glm::vec3;
 
 /// Pixels by which single precision may be off in pictures of up to 4096 pixels.
-constexpr float kPixel = 0.02F;
+constexpr float kFitPixel = 0.02F;
 
 /// The free distance of what is seen to the sides of what the insets leave, pixels.
 struct Slack {
@@ -42,19 +42,19 @@ Slack slack_of(const Camera& camera, const std::vector<vec3>& points, const Inse
 }
 
 /// One random cloud, direction, picture and lens a seed.
-struct Case {
+struct FitCase {
   std::vector<vec3> points;
   Orbit orbit;
   vec2 extent;
   Insets insets;
 };
 
-Case random_case(unsigned seed, bool orthographic) {
+FitCase random_fit(unsigned seed, bool orthographic) {
   std::mt19937 random(seed);
   const auto between = [&random](float low, float high) {
     return std::uniform_real_distribution<float>(low, high)(random);
   };
-  Case made;
+  FitCase made;
   const vec3 centre(between(-0.3F, 0.3F), between(-0.3F, 0.3F), between(-0.3F, 0.3F));
   const vec3 half(between(0.05F, 0.4F), between(0.05F, 0.4F), between(0.05F, 0.4F));
   const int count = 4 + static_cast<int>(between(0, 200));
@@ -75,28 +75,28 @@ class CameraFit : public testing::TestWithParam<bool> {};  // orthographic or no
 
 TEST_P(CameraFit, TouchesTheRegionOnOppositeSidesAndNeverLeavesIt) {
   for (unsigned seed = 0; seed < 300; ++seed) {
-    const Case made = random_case(seed, GetParam());
+    const FitCase made = random_fit(seed, GetParam());
     const Camera camera = make_camera(made.orbit, made.points, made.extent, made.insets);
     const Slack slack = slack_of(camera, made.points, made.insets);
-    EXPECT_GE(slack.horizontal(), -kPixel) << seed;
-    EXPECT_GE(slack.vertical(), -kPixel) << seed;
-    EXPECT_LE(std::min(slack.horizontal(), slack.vertical()), kPixel) << seed;
+    EXPECT_GE(slack.horizontal(), -kFitPixel) << seed;
+    EXPECT_GE(slack.vertical(), -kFitPixel) << seed;
+    EXPECT_LE(std::min(slack.horizontal(), slack.vertical()), kFitPixel) << seed;
   }
 }
 
 TEST_P(CameraFit, CentresTheModelInTheRegion) {
   for (unsigned seed = 0; seed < 300; ++seed) {
-    const Case made = random_case(seed, GetParam());
+    const FitCase made = random_fit(seed, GetParam());
     const Camera camera = make_camera(made.orbit, made.points, made.extent, made.insets);
     const Slack slack = slack_of(camera, made.points, made.insets);
-    EXPECT_NEAR(slack.left, slack.right, 2 * kPixel) << seed;
-    EXPECT_NEAR(slack.top, slack.bottom, 2 * kPixel) << seed;
+    EXPECT_NEAR(slack.left, slack.right, 2 * kFitPixel) << seed;
+    EXPECT_NEAR(slack.top, slack.bottom, 2 * kFitPixel) << seed;
   }
 }
 
 TEST_P(CameraFit, HoldsAllPointsBetweenNearAndFarPlane) {
   for (unsigned seed = 0; seed < 300; ++seed) {
-    const Case made = random_case(seed, GetParam());
+    const FitCase made = random_fit(seed, GetParam());
     const Camera camera = make_camera(made.orbit, made.points, made.extent, made.insets);
     for (const vec3& p : made.points) {
       const float depth = camera.project(p).z;
@@ -127,8 +127,8 @@ TEST_P(CameraFit, ShowsTheSphereAtTheSameSizeFromEveryAzimuth) {
     orbit.azimuth = 15.0F * static_cast<float>(turn);
     const Camera camera = make_camera(orbit, points, {1280, 720}, insets);
     const vec3 top = camera.project({0, 0.9F, 0});
-    EXPECT_NEAR(top.x, (1280 - 100) / 2.0F, kPixel);
-    EXPECT_NEAR(top.y, first.project({0, 0.9F, 0}).y, kPixel);
+    EXPECT_NEAR(top.x, (1280 - 100) / 2.0F, kFitPixel);
+    EXPECT_NEAR(top.y, first.project({0, 0.9F, 0}).y, kFitPixel);
     EXPECT_EQ(camera.projection, first.projection);
   }
 }

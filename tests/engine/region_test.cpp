@@ -12,7 +12,7 @@ namespace {
 using namespace geotherm::engine;
 
 constexpr glm::vec3 kNoRegion(0.62F);
-constexpr float kRounding = 1.5F / 255;
+constexpr float kRegionRounding = 1.5F / 255;
 using Places = std::vector<std::int32_t>;
 
 glm::vec3 colour_of(int region) { return region_colour(static_cast<std::uint32_t>(region)); }
@@ -31,7 +31,7 @@ class Regions : public GpuTest {
     return stage;
   }
   static bool is(const glm::vec3& colour, const glm::vec3& other) {
-    return difference(colour, other) <= kRounding;
+    return difference(colour, other) <= kRegionRounding;
   }
   /// Where the first colour ends on a row of pixels, in scene space; what is neither of both is
   /// counted as half.

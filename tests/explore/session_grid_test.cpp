@@ -15,7 +15,7 @@ class SessionOnGrid : public SessionFixture {
  protected:
   /// Of these speeds; a picture's worth of doubles is one of speeds.
   std::string grid(const std::string& name, std::array<Index, 3> size, double speed) {
-    const Grid grid{.size = size};
+    const Grid grid{.size = size, .speeds = {}};
     const std::vector<double> speeds(static_cast<std::size_t>(grid.sample_count()), speed);
     EXPECT_TRUE(write_distances(folder() + name, grid, speeds));
     return folder() + name;

@@ -12,7 +12,7 @@ namespace geotherm::app {
 namespace {
 
 /// Between methods that have taken something over and fresh ones: round-off alone.
-constexpr double kSameDistance = 1e-8;
+constexpr double kSameOverTime = 1e-8;
 constexpr int kFrames = 4;
 
 class SessionTimeline : public SessionFixture {
@@ -37,7 +37,7 @@ class SessionTimeline : public SessionFixture {
   void expect_near(const std::vector<double>& a, const std::vector<double>& b) const {
     ASSERT_EQ(a.size(), b.size());
     const double largest = session.explored().a->distance.max;
-    for (std::size_t v = 0; v < a.size(); ++v) EXPECT_NEAR(a[v], b[v], kSameDistance * largest);
+    for (std::size_t v = 0; v < a.size(); ++v) EXPECT_NEAR(a[v], b[v], kSameOverTime * largest);
   }
 };
 

@@ -18,7 +18,7 @@ namespace {
 // side of the face.
 constexpr double kStrictBy = 1e-5;
 // Adding one number to lengths of order 1 costs a rounding or two each.
-constexpr double kRoundOff = 1e-14;
+constexpr double kIntrinsicRoundOff = 1e-14;
 
 class IntrinsicMeshes : public testing::TestWithParam<ZooMesh> {
  protected:
@@ -31,7 +31,7 @@ TEST_P(IntrinsicMeshes, SatisfyTriangleInequalitiesStrictly) {
     const double longest = std::max({l[0], l[1], l[2]});
     for (int k = 0; k < 3; ++k) {
       EXPECT_GE(l[next_corner(k)] + l[previous_corner(k)] - l[k],
-                (kStrictBy - kRoundOff) * longest - kRoundOff);
+                (kStrictBy - kIntrinsicRoundOff) * longest - kIntrinsicRoundOff);
     }
   }
 }
@@ -41,7 +41,7 @@ TEST_P(IntrinsicMeshes, HaveTheLengthsOfTheMesh) {
     for (int k = 0; k < 3; ++k) {
       const Vec3 side = mesh->positions()[in.mesh.faces[f][k]] -
                         mesh->positions()[in.mesh.faces[f][next_corner(k)]];
-      const double length = side.norm() / in.mesh.unit, off = kRoundOff * (1 + length);
+      const double length = side.norm() / in.mesh.unit, off = kIntrinsicRoundOff * (1 + length);
       EXPECT_GE(in.mesh.lengths[f][k], length - off);
       EXPECT_LE(in.mesh.lengths[f][k], length + in.mesh.mollified.most + off);
     }
@@ -78,7 +78,7 @@ TEST(Layout, KeepsTheHeightOfANeedle) {
 
 TEST(Layout, KnowsTheCotangentsOfAnEquilateralTriangle) {
   for (int side = 0; side < 3; ++side) {
-    EXPECT_NEAR(opposite_cotangent({2, 2, 2}, side), 1 / std::numbers::sqrt3, kRoundOff);
+    EXPECT_NEAR(opposite_cotangent({2, 2, 2}, side), 1 / std::numbers::sqrt3, kIntrinsicRoundOff);
   }
 }
 

@@ -14,7 +14,7 @@
 namespace geotherm::test {
 namespace {
 
-constexpr double kRoundOff = 1e-9;  // of lengths that are computed a few dozen times
+constexpr double kRefinedRoundOff = 1e-9;  // of lengths that are computed a few dozen times
 // As intrinsic_refinement.h states them: the longest edge over sqrt(t), the cotangent of 96
 // degrees.
 constexpr double kLongest = 2.6, kObtuse = -0.1;
@@ -84,7 +84,7 @@ TEST_P(Refinements, LeaveNoFaceTooLargeForTheTime) {
   for (Index f = 0; f < after.face_count(); ++f) {
     const Index part = refined.parts.of[after.faces[f][0]];
     const double root_t = refined.part_edge[part] * std::sqrt(refined.refinement.grading[part]);
-    EXPECT_LE(std::ranges::max(after.lengths[f]), kLongest * root_t * (1 + kRoundOff)) << f;
+    EXPECT_LE(std::ranges::max(after.lengths[f]), kLongest * root_t * (1 + kRefinedRoundOff)) << f;
   }
 }
 
@@ -102,7 +102,7 @@ TEST_P(Refinements, LeaveADelaunayTriangulation) { EXPECT_EQ(count_non_delaunay(
 
 TEST_P(Refinements, KeepTheSurface) {
   EXPECT_NEAR(area(after.lengths), area(flipped.intrinsic.lengths),
-              kRoundOff * area(after.lengths));
+              kRefinedRoundOff * area(after.lengths));
   // Each inserted vertex brings two faces, on the border one.
   const Refinement& counts = refined.refinement;
   EXPECT_EQ(after.face_count() - flipped.intrinsic.face_count(),
@@ -226,7 +226,7 @@ TEST(RefinementsOfManyParts, AreTheSameForEach) {
   const IntrinsicSurface surface = *build_intrinsic_surface(finish(many), kRefine);
   EXPECT_TRUE(surface.refinement.complete);
   const std::vector<double>& grading = surface.refinement.grading;
-  EXPECT_LE(std::ranges::max(grading), std::ranges::min(grading) * (1 + kRoundOff));
+  EXPECT_LE(std::ranges::max(grading), std::ranges::min(grading) * (1 + kRefinedRoundOff));
 }
 
 TEST(RefinementsWithProgress, EndWhenCancelled) {

@@ -14,7 +14,7 @@ namespace geotherm::test {
 namespace {
 
 // Sums of some dozen terms, relative to the largest.
-constexpr double kRoundOff = 1e-12;
+constexpr double kOperatorRoundOff = 1e-12;
 // Angles from three coordinates against angles from lengths: both lose digits on flat triangles
 // (cotangents of the caps are about 1e4).
 constexpr double kFromPositions = 1e-9;
@@ -51,7 +51,7 @@ class Operators : public testing::TestWithParam<ZooMesh> {
 TEST_P(Operators, RowsOfTheStiffnessSumToZero) {
   const FemOperator L(operators(true), 0, 1);
   const Eigen::VectorXd sums = dense(L.assembled()).rowwise().sum();
-  EXPECT_LE(sums.lpNorm<Eigen::Infinity>(), kRoundOff * largest(L.diagonal()));
+  EXPECT_LE(sums.lpNorm<Eigen::Infinity>(), kOperatorRoundOff * largest(L.diagonal()));
 }
 
 TEST_P(Operators, StiffnessIsPositiveSemidefinite) {
@@ -81,7 +81,8 @@ TEST_P(Operators, DivergenceOfTheGradientIsTheStiffness) {
   Eigen::VectorXd applied(L.size());
   L.apply(span_of(x), span_of(applied));
   // Where triangles are nearly flat the terms of a row are far larger than their sum.
-  const double tolerance = kRoundOff * (largest(L.diagonal()) + applied.lpNorm<Eigen::Infinity>());
+  const double tolerance =
+      kOperatorRoundOff * (largest(L.diagonal()) + applied.lpNorm<Eigen::Infinity>());
   EXPECT_LE((divergences - applied).lpNorm<Eigen::Infinity>(), tolerance);
   EXPECT_LE((dense(L.assembled()) * x - applied).lpNorm<Eigen::Infinity>(), tolerance);
 }
@@ -91,17 +92,18 @@ class OperatorForms : public Operators {
   /// apply(), assembled(), diagonal(), residual() and pattern say the same.
   static void expect_one_operator(const FemOperator& M) {
     const Eigen::MatrixXd applied = dense(M), stored = dense(M.assembled());
-    EXPECT_LE(relative_difference(values(stored), values(applied)), kRoundOff);
+    EXPECT_LE(relative_difference(values(stored), values(applied)), kOperatorRoundOff);
     EXPECT_LE((applied - applied.transpose()).lpNorm<Eigen::Infinity>(),
-              kRoundOff * applied.lpNorm<Eigen::Infinity>());
+              kOperatorRoundOff * applied.lpNorm<Eigen::Infinity>());
     EXPECT_LE(relative_difference(M.diagonal(), values(stored.diagonal())), 0);
     constexpr int kColumns = 3;
     const Block x = random_vector(kColumns * M.size()).reshaped(M.size(), kColumns);
     const Block b = x.rowwise().reverse();
     Block residual(x.rows(), x.cols());
     M.residual(b, x, residual, 1);
-    EXPECT_LE((residual - (b - stored * x)).lpNorm<Eigen::Infinity>(),
-              kRoundOff * (stored.lpNorm<Eigen::Infinity>() + 1) * x.lpNorm<Eigen::Infinity>());
+    EXPECT_LE(
+        (residual - (b - stored * x)).lpNorm<Eigen::Infinity>(),
+        kOperatorRoundOff * (stored.lpNorm<Eigen::Infinity>() + 1) * x.lpNorm<Eigen::Infinity>());
   }
   /// Every fifth vertex.
   static std::vector<Index> some_held(Index n) {
@@ -136,7 +138,7 @@ TEST_P(OperatorForms, ConsistentMassKeepsRowSums) {
   const FemOperator N(operators(true), 1, kHeatTime, {}, kConsistentShare);
   const Eigen::VectorXd ones = Eigen::VectorXd::Ones(M.size());
   EXPECT_LE(relative_difference(values(dense(N.assembled()) * ones), surface->mass),
-            kRoundOff * largest(N.diagonal()));
+            kOperatorRoundOff * largest(N.diagonal()));
 }
 
 TEST_P(OperatorForms, HaveNoKernelButConstants) {

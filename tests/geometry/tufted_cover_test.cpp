@@ -13,7 +13,7 @@ namespace geotherm::test {
 namespace {
 
 // Sums of a few rounded cotangents a row.
-constexpr double kRoundOff = 1e-11;
+constexpr double kTuftedRoundOff = 1e-11;
 // Flips accept cotangent sums down to this (delaunay.cpp).
 constexpr double kAcceptedWeight = 1e-6;
 
@@ -52,11 +52,12 @@ TEST_P(TuftedCover, HasTwiceTheOperatorsOfTheMesh) {
   const LowerMatrix& lower = L.assembled();
   for (Index j = 0; j < L.size(); ++j) {
     for (auto e = lower.start[j]; e < lower.start[j + 1]; ++e) {
-      EXPECT_NEAR(M.assembled().value[e], 2 * lower.value[e], kRoundOff * (1 + L.diagonal()[j]));
+      EXPECT_NEAR(M.assembled().value[e], 2 * lower.value[e],
+                  kTuftedRoundOff * (1 + L.diagonal()[j]));
     }
   }
   for (Index i = 0; i < once->size(); ++i) {
-    EXPECT_NEAR(twice->mass[i], 2 * once->mass[i], kRoundOff * once->mass[i]);
+    EXPECT_NEAR(twice->mass[i], 2 * once->mass[i], kTuftedRoundOff * once->mass[i]);
   }
 }
 
@@ -78,9 +79,9 @@ TEST_P(TuftedCoverOfClosed, IsTheIntrinsicDelaunayLaplacianTwice) {
   const auto once = operators_of(*mesh, intrinsic_of(*mesh, true));
   const auto twice = operators_of(*mesh, cover_of(*mesh, true));
   for (Index i = 0; i < once->size(); ++i) {
-    EXPECT_NEAR(twice->mass[i], 2 * once->mass[i], kRoundOff * once->mass[i]);
+    EXPECT_NEAR(twice->mass[i], 2 * once->mass[i], kTuftedRoundOff * once->mass[i]);
     EXPECT_NEAR(twice->stiffness_diagonal[i], 2 * once->stiffness_diagonal[i],
-                kRoundOff * once->stiffness_diagonal[i]);
+                kTuftedRoundOff * once->stiffness_diagonal[i]);
   }
 }
 

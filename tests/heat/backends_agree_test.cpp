@@ -58,9 +58,9 @@ const OptionCase kOptions[] = {
 
 void PrintTo(const OptionCase& c, std::ostream* out) { *out << c.name; }
 
-using Case = std::tuple<ZooMesh, OptionCase>;
+using AgreementCase = std::tuple<ZooMesh, OptionCase>;
 
-class BackendsAgree : public testing::TestWithParam<Case> {};
+class BackendsAgree : public testing::TestWithParam<AgreementCase> {};
 
 TEST_P(BackendsAgree, OnTheDistance) {
   const MeshPtr mesh = std::get<0>(GetParam()).mesh();

@@ -10,8 +10,8 @@ namespace geotherm::test {
 namespace {
 
 // What the digits of another unit of length and another order of elimination leave.
-constexpr double kRoundOff = 1e-8;
-constexpr double kIterative = 1e-6;
+constexpr double kTimesRoundOff = 1e-8;
+constexpr double kIterativeTimes = 1e-6;
 
 struct Neighbour {
   const char* name;
@@ -58,13 +58,13 @@ TEST_P(ComponentBeside, ChangesNoDistance) {
   for (const TimeRule rule : {TimeRule::kMeanEdge, TimeRule::kMeanFaceArea}) {
     HeatOptions options;
     options.time_step.rule = rule;
-    expect_same(options, kRoundOff);
+    expect_same(options, kTimesRoundOff);
   }
 }
 
 TEST_P(ComponentBeside, ChangesNoDistanceOfAnIterativeBackend) {
   for (const std::string& name : iterative_backends()) {
-    expect_same(with_backend(name), kIterative);
+    expect_same(with_backend(name), kIterativeTimes);
   }
 }
 
@@ -72,7 +72,7 @@ TEST_P(ComponentBeside, ChangesNoDistanceWithHeldHeatAndHeldBorders) {
   HeatOptions options;
   options.boundary = BoundaryRule::kAverage;
   options.heat = HeatMode::kHold;
-  expect_same(options, kRoundOff);
+  expect_same(options, kTimesRoundOff);
 }
 
 INSTANTIATE_TEST_SUITE_P(Neighbours, ComponentBeside, testing::ValuesIn(kNeighbours),

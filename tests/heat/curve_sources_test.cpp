@@ -14,7 +14,7 @@ namespace {
 // Error of the discretisation in edges, where neither the curve's ends nor the border are near,
 // and anywhere.
 constexpr double kBesideTheCurve = 1;
-constexpr double kEverywhere = 2.5;
+constexpr double kOnCurvesEverywhere = 2.5;
 constexpr Index kN = 40;
 
 HeatOptions in_mode(const std::string& backend, HeatMode mode) {
@@ -36,9 +36,9 @@ double to_middle_curve(const Vec3& p) {
   return (p - Vec3(std::clamp(p.x(), 0.25, 0.75), 0.5, 0)).norm();
 }
 
-using Case = std::tuple<std::string, HeatMode>;
+using CurveCase = std::tuple<std::string, HeatMode>;
 
-class CurveSources : public testing::TestWithParam<Case> {
+class CurveSources : public testing::TestWithParam<CurveCase> {
  protected:
   Draft draft = plane_grid(kN, kN, 1, 1);
   HeatMethod method =
@@ -50,7 +50,7 @@ TEST_P(CurveSources, GiveTheDistanceToTheSegment) {
   for (std::size_t v = 0; v < d.size(); ++v) {
     const Vec3& p = draft.positions[v];
     const bool beside = p.x() > 0.3 && p.x() < 0.7 && std::abs(p.y() - 0.5) < 0.3;
-    EXPECT_NEAR(d[v], to_middle_curve(p), (beside ? kBesideTheCurve : kEverywhere) / kN)
+    EXPECT_NEAR(d[v], to_middle_curve(p), (beside ? kBesideTheCurve : kOnCurvesEverywhere) / kN)
         << "at " << p.transpose();
   }
 }
@@ -71,7 +71,7 @@ TEST_P(CurveSources, DoNotDependOnDirectionOrOrder) {
   EXPECT_EQ(solve(method, turned).distances, solve(method, middle_curve()).distances);
 }
 
-std::string case_name(const testing::TestParamInfo<Case>& each) {
+std::string case_name(const testing::TestParamInfo<CurveCase>& each) {
   const char* const modes[] = {"unit", "diffuse", "hold"};
   return test_name(std::get<0>(each.param)) + "_" +
          modes[static_cast<int>(std::get<1>(each.param))];

@@ -25,9 +25,9 @@ std::vector<Index> random_vertices(Index count, Index vertex_count) {
   return all;
 }
 
-using Case = std::tuple<std::string, Index>;
+using ManyCase = std::tuple<std::string, Index>;
 
-class ManySources : public testing::TestWithParam<Case> {
+class ManySources : public testing::TestWithParam<ManyCase> {
  protected:
   // Edges of very different lengths: a way round along two edges may be shorter than one.
   Draft draft = jittered_plane(44, 0.45, 5);

@@ -111,13 +111,13 @@ class PrecisionOf : public testing::Test {
       std::make_unique<RoughBackend>(**find_backend(direct_backends().back()), counts)};
 };
 
-struct Case {
+struct PrecisionCase {
   const char* name;
   void (*set)(HeatOptions&);
   bool far = false;  ///< on a strip whose heat needs restarts
 };
 
-const Case kCases[] = {
+const PrecisionCase kCases[] = {
     {"default", [](HeatOptions&) {}},
     {"far", [](HeatOptions&) {}, true},
     {"hold", [](HeatOptions& o) { o.heat = HeatMode::kHold; }},
@@ -130,9 +130,9 @@ const Case kCases[] = {
     {"pseudo_inverse", [](HeatOptions& o) { o.constraint.mode = ConstraintMode::kPseudoInverse; }},
 };
 
-void PrintTo(const Case& c, std::ostream* out) { *out << c.name; }
+void PrintTo(const PrecisionCase& c, std::ostream* out) { *out << c.name; }
 
-class RefinedPrecision : public PrecisionOf, public testing::WithParamInterface<Case> {
+class RefinedPrecision : public PrecisionOf, public testing::WithParamInterface<PrecisionCase> {
  protected:
   // The strip is 1,500 edges long: the heat ends at 735.
   MeshPtr mesh =

@@ -19,14 +19,14 @@ constexpr Index kCells = kSanitized ? 260 : 300;
 // Several ranges of faces.
 constexpr Index kFewerCells = kSanitized ? 190 : kCells;
 
-struct Case {
+struct ThreadCase {
   const char* name;
   void (*set)(HeatOptions&);
   std::size_t sets;
   Index cells = kCells;
 };
 
-const Case kCases[] = {
+const ThreadCase kThreadCases[] = {
     {"one_set", [](HeatOptions&) {}, 1},
     {"four_sets", [](HeatOptions&) {}, 4},
     {"refined", [](HeatOptions& o) { o.precision = Precision::kRefined; }, 1, kFewerCells},
@@ -36,9 +36,9 @@ const Case kCases[] = {
     {"blocks", [](HeatOptions&) {}, 33, 80},
 };
 
-void PrintTo(const Case& c, std::ostream* out) { *out << c.name; }
+void PrintTo(const ThreadCase& c, std::ostream* out) { *out << c.name; }
 
-class QueryThreads : public testing::TestWithParam<Case> {
+class QueryThreads : public testing::TestWithParam<ThreadCase> {
  protected:
   static HeatOptions options() {
     HeatOptions options = with_backend(direct_backends().front());
@@ -81,7 +81,7 @@ TEST_P(QueryThreads, DoNotChangeABit) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Cases, QueryThreads, testing::ValuesIn(kCases),
+INSTANTIATE_TEST_SUITE_P(Cases, QueryThreads, testing::ValuesIn(kThreadCases),
                          [](const auto& each) { return each.param.name; });
 
 std::ptrdiff_t threads_of_process() {

@@ -35,15 +35,15 @@ Draft stretched_delaunay() {
   return draft;
 }
 
-struct Case {
+struct RefinedCase {
   const char* name;
   Draft (*draft)();
 };
-void PrintTo(const Case& c, std::ostream* out) { *out << c.name; }
-std::string case_name(const testing::TestParamInfo<Case>& info) { return info.param.name; }
+void PrintTo(const RefinedCase& c, std::ostream* out) { *out << c.name; }
+std::string case_name(const testing::TestParamInfo<RefinedCase>& info) { return info.param.name; }
 
 /// Convex regions of the plane: the distance is the straight line.
-class RefinedPlane : public testing::TestWithParam<Case> {
+class RefinedPlane : public testing::TestWithParam<RefinedCase> {
  protected:
   MeshPtr mesh = finish(GetParam().draft());
   HeatMethod method = method_of(mesh);
@@ -221,14 +221,15 @@ TEST_P(RefinedPlane, AnswersTheSameWithEveryBackendAndConstraint) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Meshes, RefinedPlane,
-                         testing::Values(Case{"delaunay", [] { return random_delaunay(500, 1); }},
-                                         Case{"stretched", stretched_delaunay},
-                                         Case{"graded", [] { return graded_plane(24, 300); }}),
-                         case_name);
+INSTANTIATE_TEST_SUITE_P(
+    Meshes, RefinedPlane,
+    testing::Values(RefinedCase{"delaunay", [] { return random_delaunay(500, 1); }},
+                    RefinedCase{"stretched", stretched_delaunay},
+                    RefinedCase{"graded", [] { return graded_plane(24, 300); }}),
+    case_name);
 
 /// Surfaces in space, against the exact method.
-class RefinedSurface : public testing::TestWithParam<Case> {};
+class RefinedSurface : public testing::TestWithParam<RefinedCase> {};
 
 TEST_P(RefinedSurface, IsRight) {
   const MeshPtr mesh = finish(GetParam().draft());
@@ -246,8 +247,8 @@ TEST_P(RefinedSurface, IsRight) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Meshes, RefinedSurface,
-                         testing::Values(Case{"spiky", spiky_sphere},
-                                         Case{"book", [] { return graded_book(20); }}),
+                         testing::Values(RefinedCase{"spiky", spiky_sphere},
+                                         RefinedCase{"book", [] { return graded_book(20); }}),
                          case_name);
 
 /// Meshes on which the method was 10 to 90 % wrong; those that are not part of the project.
@@ -296,7 +297,7 @@ INSTANTIATE_TEST_SUITE_P(Files, KnownCases,
                          });
 
 /// Narrow regions of the plane, on which the corrections of the method say nothing.
-class NarrowPlane : public testing::TestWithParam<Case> {};
+class NarrowPlane : public testing::TestWithParam<RefinedCase> {};
 
 TEST_P(NarrowPlane, CorrectedIsAsGoodAsClassic) {
   constexpr double kMax = 1.1;  // of the error of classic
@@ -317,9 +318,9 @@ TEST_P(NarrowPlane, CorrectedIsAsGoodAsClassic) {
 
 INSTANTIATE_TEST_SUITE_P(
     Meshes, NarrowPlane,
-    testing::Values(Case{"one_face_wide", [] { return plane_grid(400, 1, 400, 1); }},
-                    Case{"two_faces_wide", [] { return plane_grid(300, 2, 300, 2); }},
-                    Case{"thin_faces", [] { return plane_grid(60, 6, 60, 0.5); }}),
+    testing::Values(RefinedCase{"one_face_wide", [] { return plane_grid(400, 1, 400, 1); }},
+                    RefinedCase{"two_faces_wide", [] { return plane_grid(300, 2, 300, 2); }},
+                    RefinedCase{"thin_faces", [] { return plane_grid(60, 6, 60, 0.5); }}),
     case_name);
 
 TEST(RefinedGoodMeshes, PayNothing) {

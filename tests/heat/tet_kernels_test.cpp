@@ -19,7 +19,7 @@ namespace geotherm::test {
 namespace {
 
 // Roots by iteration to some units of the last digit, sums of a few terms in another order.
-constexpr double kRoundOff = 1e-11;
+constexpr double kTetRoundOff = 1e-11;
 constexpr double kRootT = 1.2;
 constexpr int kVertices = 40;
 constexpr Index kTets = 53;  // that fill no register to the end
@@ -127,7 +127,7 @@ TEST_P(TetKernels, ComputeTheDivergenceOfTheField) {
       }
     }
   }
-  EXPECT_LE(relative_difference(run(first, nullptr), expected), kRoundOff);
+  EXPECT_LE(relative_difference(run(first, nullptr), expected), kTetRoundOff);
 }
 
 TEST_P(TetKernels, SendTetsWithoutADirectionOrWithSeveralExponentsTheCarefulWay) {

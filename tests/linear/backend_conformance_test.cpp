@@ -14,7 +14,7 @@ namespace {
 // The heat step's matrix has a condition number of about 10, an iterative backend stops at 1e-13.
 constexpr double kResidual = 1e-11;
 // Direct backends against themselves in another order of operations.
-constexpr double kRoundOff = 1e-12;
+constexpr double kBackendRoundOff = 1e-12;
 
 struct ConformanceMesh {
   const char* name;
@@ -87,7 +87,7 @@ TEST_P(Conformance, SolvesForSomeRowsAlone) {
     ASSERT_TRUE(factor->solve_where(b, support, wanted, {}, 2));
     for (const Index row : rows) {
       for (Index c = 0; c < columns; ++c) {
-        EXPECT_NEAR(b(row, c), expected(row, c), kRoundOff * expected.norm());
+        EXPECT_NEAR(b(row, c), expected(row, c), kBackendRoundOff * expected.norm());
       }
     }
   }
@@ -109,7 +109,7 @@ TEST_P(Conformance, SparseSupportGivesTheAnswerOfADenseRightSide) {
   const Block random = random_block(5, 3, 4);
   for (Index k = 0; k < 5; ++k) b.row(support[k]) = random.row(k);
   EXPECT_LE(relative_difference(values(solved(*factor, b, support)), values(solved(*factor, b))),
-            kRoundOff);
+            kBackendRoundOff);
 }
 
 TEST_P(Conformance, InverseEntriesAreThoseOfTheInverse) {
@@ -122,7 +122,7 @@ TEST_P(Conformance, InverseEntriesAreThoseOfTheInverse) {
   const Block inverse = solved(*factor, unit);
   Eigen::MatrixXd expected(19, 19);
   for (Index k = 0; k < 19; ++k) expected.row(k) = inverse.row(rows[k]);
-  EXPECT_LE(relative_difference(test::values(*entries), test::values(expected)), kRoundOff);
+  EXPECT_LE(relative_difference(test::values(*entries), test::values(expected)), kBackendRoundOff);
 }
 
 TEST_P(Conformance, ReportsItsCost) {
@@ -197,18 +197,18 @@ TEST_P(Conformance, ConcurrentFactorisationsOfOneAnalysisAgree) {
     }
   }
   for (const Block& answer : answers) {
-    EXPECT_LE(relative_difference(values(answer), values(answers[0])), kRoundOff);
+    EXPECT_LE(relative_difference(values(answer), values(answers[0])), kBackendRoundOff);
     EXPECT_GT(answer.norm(), 0);
   }
 }
 
-std::string case_name(const testing::TestParamInfo<Case>& info) {
+std::string conformance_name(const testing::TestParamInfo<Case>& info) {
   return test_name(std::get<0>(info.param)) + "_" + std::get<1>(info.param).name;
 }
 INSTANTIATE_TEST_SUITE_P(Backends, Conformance,
                          testing::Combine(testing::ValuesIn(backend_names()),
                                           testing::Values(kSmall, kParts, kDissected)),
-                         case_name);
+                         conformance_name);
 
 class ConformanceOfWidths : public Conformance {};
 
@@ -222,7 +222,7 @@ TEST_P(ConformanceOfWidths, ABlockIsSolvedLikeItsColumns) {
   for (Index width = 2; width <= kWidest; ++width) {
     const Block first = singly.leftCols(width);
     EXPECT_LE(relative_difference(values(solved(*factor, b.leftCols(width))), values(first)),
-              kRoundOff)
+              kBackendRoundOff)
         << width << " columns";
   }
 }
@@ -230,11 +230,11 @@ TEST_P(ConformanceOfWidths, ABlockIsSolvedLikeItsColumns) {
 INSTANTIATE_TEST_SUITE_P(Backends, ConformanceOfWidths,
                          testing::Combine(testing::ValuesIn(backend_names()),
                                           testing::Values(kSmall)),
-                         case_name);
+                         conformance_name);
 INSTANTIATE_TEST_SUITE_P(BackendsSlow, ConformanceOfWidths,
                          testing::Combine(testing::ValuesIn(backend_names()),
                                           testing::Values(kDissected)),
-                         case_name);
+                         conformance_name);
 
 }  // namespace
 }  // namespace geotherm::test

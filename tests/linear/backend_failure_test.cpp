@@ -13,7 +13,7 @@ namespace geotherm::test {
 namespace {
 
 // An iterative backend stops at 1e-13, relative to the preconditioned right side.
-constexpr double kResidual = 1e-11;
+constexpr double kSmallResidual = 1e-11;
 
 /// Factorises and solves; the error of whichever fails.
 Result<Block> attempt(const Analysis& analysis, std::shared_ptr<const SymmetricOperator> matrix,
@@ -61,7 +61,7 @@ TEST_P(BackendFailures, ConstantsAreProjectedOutOrHeld) {
   const auto answer = attempt(*surface.analysis, laplacian, b);
   if (backend.iterative()) {
     ASSERT_TRUE(answer) << answer.error().message;
-    EXPECT_LE(relative_residual(*laplacian, *answer, b), kResidual);
+    EXPECT_LE(relative_residual(*laplacian, *answer, b), kSmallResidual);
     return;
   }
   // Without a held row a direct backend may find a last pivot of round-off; whatever it answers

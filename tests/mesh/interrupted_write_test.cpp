@@ -16,7 +16,7 @@ namespace geotherm::test {
 namespace {
 
 constexpr int kInterruptions = kSanitized ? 8 : 25;
-constexpr std::uint64_t kSeed = 20252;
+constexpr std::uint64_t kWriteSeed = 20252;
 constexpr std::size_t kBytes = 4 << 20;  // most of the time of a write lies between begin and end
 
 extern "C" void remove_and_end(int number) {
@@ -41,7 +41,7 @@ extern "C" void remove_and_end(int number) {
 
 TEST(InterruptedWrite, LeavesWholeFilesAndNoOthers) {
   const std::string bytes(kBytes, 'x');
-  std::mt19937_64 random(kSeed);
+  std::mt19937_64 random(kWriteSeed);
   int written = 0;
   for (int i = 0; i < kInterruptions; ++i) {
     const TemporaryDirectory folder;

@@ -14,11 +14,11 @@ namespace geotherm::test {
 namespace {
 
 constexpr int kLevel = 3;  // 642 vertices
-constexpr std::size_t kSets = 21;
+constexpr std::size_t kStreamSets = 21;
 
-std::vector<SourceSet> some_sets() {
+std::vector<SourceSet> streamed_sets() {
   std::vector<SourceSet> sets;
-  for (std::size_t i = 0; i < kSets; ++i) {
+  for (std::size_t i = 0; i < kStreamSets; ++i) {
     sets.push_back(SourceSet::of_vertices({static_cast<Index>(7 * i + 3)}));
   }
   return sets;
@@ -34,7 +34,7 @@ std::shared_ptr<const DistanceMethod> method_of(MethodKind kind, int threads) {
 class StreamOfAnswers : public testing::TestWithParam<MethodKind> {};
 
 TEST_P(StreamOfAnswers, HasTheBitsOfOneCallWhateverThreadsAndChunksOfSixteen) {
-  const auto sets = some_sets();
+  const auto sets = streamed_sets();
   const auto all = method_of(GetParam(), 1)->solve_each(sets);
   ASSERT_TRUE(all);
   for (const int threads : {1, 3}) {
@@ -48,14 +48,14 @@ TEST_P(StreamOfAnswers, HasTheBitsOfOneCallWhateverThreadsAndChunksOfSixteen) {
       };
       const auto done = stream_answers(*method, sets, {chunk, {}}, sink);
       EXPECT_TRUE(done) << done.error().message;
-      EXPECT_EQ(next, kSets);
+      EXPECT_EQ(next, kStreamSets);
     }
   }
 }
 
 TEST_P(StreamOfAnswers, HasThoseOfSingleSolves) {
   constexpr double kRoundOff = 1e-12;  // of the largest distance: blocks of columns round otherwise
-  const auto sets = some_sets();
+  const auto sets = streamed_sets();
   const auto method = method_of(GetParam(), 1);
   const auto done = stream_answers(
       *method, sets, {5, {}}, [&](std::size_t set, DistanceResult&& answer) -> Result<void> {
@@ -104,18 +104,18 @@ TEST(StreamAnswers, NeedsNoThreadBesideTheCallers) {
   if (!none.works()) GTEST_SKIP() << "threads start here whatever their stacks";
   std::size_t taken = 0;
   const auto done =
-      stream_answers(*method, some_sets(), {4, {}}, [&](std::size_t, DistanceResult&&) {
+      stream_answers(*method, streamed_sets(), {4, {}}, [&](std::size_t, DistanceResult&&) {
         ++taken;
         return Result<void>();
       });
   EXPECT_TRUE(done);
-  EXPECT_EQ(taken, kSets);
+  EXPECT_EQ(taken, kStreamSets);
 }
 
 TEST(StreamAnswers, CallNoSinkAgainAfterItsError) {
   const auto method = method_of(MethodKind::kWavefront, 1);
   std::atomic<int> calls = 0;
-  const auto done = stream_answers(*method, some_sets(), {4, {}},
+  const auto done = stream_answers(*method, streamed_sets(), {4, {}},
                                    [&](std::size_t set, DistanceResult&&) -> Result<void> {
                                      ++calls;
                                      if (set < 5) return {};
@@ -127,7 +127,7 @@ TEST(StreamAnswers, CallNoSinkAgainAfterItsError) {
 }
 
 TEST(StreamAnswers, PassOnTheErrorOfASetAndTheAnswersOfTheChunksBefore) {
-  auto sets = some_sets();
+  auto sets = streamed_sets();
   sets[9] = SourceSet::of_vertices({100000});
   std::size_t taken = 0;
   const auto done = stream_answers(*method_of(MethodKind::kHeat, 2), sets, {4, {}},
@@ -144,7 +144,7 @@ TEST(StreamAnswers, PassOnTheErrorOfASetAndTheAnswersOfTheChunksBefore) {
 TEST(StreamAnswers, CanBeCancelledBetweenChunksAndSayWhatIsDone) {
   std::vector<double> shares;
   const auto done = stream_answers(
-      *method_of(MethodKind::kHeat, 1), some_sets(), {4, {}},
+      *method_of(MethodKind::kHeat, 1), streamed_sets(), {4, {}},
       [](std::size_t, DistanceResult&&) { return Result<void>(); },
       [&](std::string_view stage, double share) {
         if (stage == kSourcesStage) shares.push_back(share);
@@ -154,7 +154,7 @@ TEST(StreamAnswers, CanBeCancelledBetweenChunksAndSayWhatIsDone) {
   EXPECT_EQ(done.error().code, ErrorCode::kCancelled);
   ASSERT_EQ(shares.size(), 3U);
   for (std::size_t i = 0; i < 3; ++i) {
-    EXPECT_DOUBLE_EQ(shares[i], 4.0 * static_cast<double>(i + 1) / kSets);
+    EXPECT_DOUBLE_EQ(shares[i], 4.0 * static_cast<double>(i + 1) / kStreamSets);
   }
 }
 

@@ -58,7 +58,7 @@ void expect_passed_on(const std::function<void(const Progress&)>& work) {
   }
 }
 
-std::vector<SourceSet> some_sets() {
+std::vector<SourceSet> progress_sets() {
   std::vector<SourceSet> sets;
   for (Index k = 0; k < 40; ++k) sets.push_back(SourceSet::of_vertices({5 * k}));
   return sets;
@@ -89,7 +89,7 @@ TEST_P(ThrowingProgressParallel, PassesThroughBuild) {
 
 TEST_P(ThrowingProgressParallel, PassesThroughQueriesAndTheMethodAnswersAsBefore) {
   const auto method = this->method();
-  const std::vector<SourceSet> sets = some_sets();
+  const std::vector<SourceSet> sets = progress_sets();
   const auto before = method->solve_each(sets);
   ASSERT_TRUE(before);
   expect_passed_on(
@@ -105,7 +105,7 @@ TEST_P(ThrowingProgressParallel, PassesThroughQueriesAndTheMethodAnswersAsBefore
 
 TEST_P(ThrowingProgressParallel, PassesThroughStreamsAndSamples) {
   const auto method = this->method();
-  const std::vector<SourceSet> sets = some_sets();
+  const std::vector<SourceSet> sets = progress_sets();
   expect_passed_on([&](const Progress& progress) {
     const auto sink = [](std::size_t, DistanceResult) { return Result<void>(); };
     EXPECT_TRUE(stream_answers(*method, sets, {.chunk = 8}, sink, progress));

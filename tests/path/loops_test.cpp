@@ -14,7 +14,7 @@
 namespace geotherm::test {
 namespace {
 
-constexpr double kRounded = 1e-12;
+constexpr double kLoopRounded = 1e-12;
 constexpr PathOptions kLoop{PathField::kGeodesic, true, false};
 constexpr PathOptions kHeld{PathField::kGeodesic, true, true};
 
@@ -43,7 +43,7 @@ TEST(Loop, RoundACylinderHasItsPerimeter) {
   const PathFinder finder = finder_on(finish(prism(15, 8, 1)));
   const SurfacePath path = found(finder, vertices({2, 5 * 15 + 7, 3 * 15 + 12}), kLoop);
   EXPECT_TRUE(path.closed);
-  EXPECT_NEAR(path.length, 1.0, kRounded);
+  EXPECT_NEAR(path.length, 1.0, kLoopRounded);
 }
 
 TEST(Loop, SlidesToTheThroatOfASleeve) {
@@ -53,7 +53,7 @@ TEST(Loop, SlidesToTheThroatOfASleeve) {
   const SurfacePath path =
       found(finder, vertices({3 * kAround, 5 * kAround + 8, 2 * kAround + 16}), kLoop);
   const double throat = kAround * 2 * 0.3 * std::sin(std::numbers::pi / kAround);
-  EXPECT_NEAR(path.length, throat, kRounded);
+  EXPECT_NEAR(path.length, throat, kLoopRounded);
 }
 
 TEST(Loop, RoundATorusShrinksToItsHole) {
@@ -75,7 +75,7 @@ TEST(Loop, RoundATorusShrinksToItsHole) {
   const SurfacePath path =
       found(finder_on(finish(draft)), vertices({top[0], top[1], top[2]}), kLoop);
   const double hole = kAround * 2 * 0.6 * std::sin(std::numbers::pi / kAround);
-  EXPECT_NEAR(path.length, hole, kRounded);
+  EXPECT_NEAR(path.length, hole, kLoopRounded);
 }
 
 TEST(Loop, OnASphereIsDrawnTogetherToAPointAndSaysSo) {
@@ -91,7 +91,7 @@ TEST(Loop, HeldByItsPointsIsTheTriangleOnAPlane) {
   const PathFinder finder = finder_on(finish(plane_grid(4, 4, 1, 1)));
   const auto corners = vertices({0, grid_vertex(4, 4, 0), grid_vertex(4, 0, 4)});
   const SurfacePath path = found(finder, corners, kHeld);
-  EXPECT_NEAR(path.length, 2 + std::sqrt(2.0), kRounded);
+  EXPECT_NEAR(path.length, 2 + std::sqrt(2.0), kLoopRounded);
   EXPECT_TRUE(path.closed);
   EXPECT_EQ(path.points.front().vertex, path.points.back().vertex);
 }

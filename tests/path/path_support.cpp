@@ -22,8 +22,8 @@ bool lies_in(const TriangleMesh& mesh, const SurfacePoint& point, Index face) {
 
 bool has_weights(const SurfacePoint& point) {
   const auto& [a, b, c] = point.weights;
-  constexpr double kRounded = 1e-12;
-  return point.is_vertex() || (std::min({a, b, c}) >= 0 && std::abs(a + b + c - 1) < kRounded);
+  constexpr double kRoundOff = 1e-12;
+  return point.is_vertex() || (std::min({a, b, c}) >= 0 && std::abs(a + b + c - 1) < kRoundOff);
 }
 
 }  // namespace
@@ -67,9 +67,9 @@ testing::AssertionResult is_path(const TriangleMesh& mesh, const SurfacePath& pa
       return testing::AssertionFailure() << "piece " << i << " leaves face " << path.faces[i];
     }
   }
-  constexpr double kRounded = 1e-12;
+  constexpr double kRoundOff = 1e-12;
   const double length = length_of(mesh, path.points);
-  if (!(std::abs(length - path.length) <= kRounded * length)) {
+  if (!(std::abs(length - path.length) <= kRoundOff * length)) {
     return testing::AssertionFailure() << "length " << path.length << ", pieces " << length;
   }
   return testing::AssertionSuccess();

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <random>
+#include <string_view>
 
 #include "geotherm/build_method.h"
 #include "tests/path/path_support.h"
@@ -16,7 +17,7 @@ namespace {
 
 /// What counts as the shortest path, as a share of the largest distance: both are exact but for
 /// round-off, and another path that is straight everywhere is longer by far more than this.
-constexpr double kGlobal = 1e-4;
+constexpr double kShortest = 1e-4;
 
 std::shared_ptr<const DistanceMethod> exact_method(const MeshPtr& mesh) {
   MethodOptions options;
@@ -50,9 +51,9 @@ void expect_shortest(const MeshPtr& mesh, int sources, int targets, unsigned see
       const double distance = solved->distances[target];
       if (!std::isfinite(distance)) continue;
       const double length = found(finder, source, target).length;
-      EXPECT_LE(length, distance + kGlobal * range) << "from " << source << " to " << target;
+      EXPECT_LE(length, distance + kShortest * range) << "from " << source << " to " << target;
       if (!regular) continue;  // distances are those of faces made a little less flat
-      EXPECT_GE(length, distance - kGlobal * range) << "from " << source << " to " << target;
+      EXPECT_GE(length, distance - kShortest * range) << "from " << source << " to " << target;
     }
   }
 }
@@ -60,7 +61,10 @@ void expect_shortest(const MeshPtr& mesh, int sources, int targets, unsigned see
 class ShortestOnSlow : public testing::TestWithParam<ZooMesh> {};
 
 TEST_P(ShortestOnSlow, IsThePathThatIsFound) {
-  expect_shortest(GetParam().mesh(), 4, 8, 41, (GetParam().tags & kRegular) != 0);
+  const bool is_long =
+      std::string_view(GetParam().name) == "long_strip";  // a thousand faces a path
+  expect_shortest(GetParam().mesh(), is_long ? 2 : 4, is_long ? 2 : 8, 41,
+                  (GetParam().tags & kRegular) != 0);
 }
 
 INSTANTIATE_TEST_SUITE_P(Zoo, ShortestOnSlow, testing::ValuesIn(zoo()), zoo_name);
@@ -135,7 +139,7 @@ TEST(Shortest, PathFarFromEveryVertexIsFound) {
     ASSERT_TRUE(solved) << solved.error().message;
     for (Index target = 0; target < source; ++target) {
       const double distance = solved->distances[target];
-      EXPECT_NEAR(found(finder, source, target).length, distance, kGlobal * distance)
+      EXPECT_NEAR(found(finder, source, target).length, distance, kShortest * distance)
           << "from " << source << " to " << target;
     }
   }

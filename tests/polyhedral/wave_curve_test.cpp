@@ -22,7 +22,7 @@ const std::map<MethodKind, double> kLargest = {{MethodKind::kWavefront, 0.005},
                                                {MethodKind::kWavefrontFine, 0.002},
                                                {MethodKind::kFastMarching, 0.08}};
 
-double to_segment(const Vec3& p, const Vec3& a, const Vec3& b) {
+double to_piece(const Vec3& p, const Vec3& a, const Vec3& b) {
   const Vec3 ab = b - a;
   const double t = std::clamp((p - a).dot(ab) / ab.squaredNorm(), 0.0, 1.0);
   return (p - a - t * ab).norm();
@@ -50,7 +50,7 @@ TEST_P(PlanarCurves, AreMeasuredFromTheirNearestPoint) {
   for (const Vec3& p : mesh->positions()) {
     double least = kUnreached;
     for (const auto& [a, b] : curve.edges) {
-      least = std::min(least, to_segment(p, mesh->positions()[a], mesh->positions()[b]));
+      least = std::min(least, to_piece(p, mesh->positions()[a], mesh->positions()[b]));
     }
     exact.push_back(least);
   }

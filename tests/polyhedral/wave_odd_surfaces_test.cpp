@@ -57,13 +57,13 @@ TEST_P(AnyMesh, HasFiniteDistancesWhereSourcesCanBeAndInfiniteElsewhere) {
 
 TEST_P(AnyMesh, IsNoShorterThanStraightLines) {
   // Degenerate faces are mollified, which lengthens; waves undercut by their error alone.
-  constexpr double kError = 0.02;
+  constexpr double kWaveError = 0.02;
   const Index source = mesh->faces()[0][0];
   const auto d = distances(mesh, kind, SourceSet::of_vertices({source}));
   const double range = largest(d);
   for (Index v = 0; v < mesh->vertex_count(); ++v) {
     const double straight = (mesh->positions()[v] - mesh->positions()[source]).norm();
-    EXPECT_GE(d[v], straight - kError * range) << "vertex " << v;
+    EXPECT_GE(d[v], straight - kWaveError * range) << "vertex " << v;
   }
 }
 
@@ -102,7 +102,7 @@ class Books : public testing::TestWithParam<std::tuple<Index, MethodKind>> {};
 
 // Shares of the range. Any two pages unfold into a plane, on which round waves are exact; fast
 // marching is of first order, with twelve edges a page: measured 0.08.
-constexpr double kRoundOff = 1e-9;
+constexpr double kOddRoundOff = 1e-9;
 constexpr double kFirstOrder = 0.12;
 
 TEST_P(Books, HaveStraightWaysFromPageToPage) {
@@ -120,7 +120,7 @@ TEST_P(Books, HaveStraightWaysFromPageToPage) {
     exact.push_back(same_page ? (p - s).norm() : std::hypot(s.x() + from_spine, p.y() - s.y()));
   }
   EXPECT_LE(relative_difference(d, exact),
-            kind == MethodKind::kFastMarching ? kFirstOrder : kRoundOff);
+            kind == MethodKind::kFastMarching ? kFirstOrder : kOddRoundOff);
 }
 
 INSTANTIATE_TEST_SUITE_P(

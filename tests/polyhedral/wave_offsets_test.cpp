@@ -15,7 +15,7 @@ namespace geotherm::test {
 namespace {
 
 // Relative to the largest distance.
-constexpr double kRoundOff = 1e-12;
+constexpr double kOffsetRoundOff = 1e-12;
 // Distances are measured from the least offset: into units, added, out of units and off again.
 constexpr double kFourUlps = 4 * std::numeric_limits<double>::epsilon();
 // Where two waves meet, a fit sees both of them: 0.3 % of the range at most in wavefront.md's
@@ -23,7 +23,7 @@ constexpr double kFourUlps = 4 * std::numeric_limits<double>::epsilon();
 const std::map<MethodKind, double> kMeeting = {{MethodKind::kWavefront, 0.01},
                                                {MethodKind::kWavefrontFine, 0.005},
                                                {MethodKind::kFastMarching, 0.02},
-                                               {MethodKind::kExact, kRoundOff}};
+                                               {MethodKind::kExact, kOffsetRoundOff}};
 
 SourceSet with_offsets(const std::vector<Index>& vertices, std::vector<double> offsets) {
   SourceSet set = SourceSet::of_vertices(vertices);
@@ -61,8 +61,8 @@ TEST_P(Offsets, OfTwoSourcesGiveTheLesserSum) {
     expected.push_back(std::min(near[v] + first, far[v] + second));
   }
   EXPECT_LE(relative_difference(d, expected), kMeeting.at(GetParam()));
-  EXPECT_NEAR(d[7], first, kRoundOff);
-  EXPECT_NEAR(d[400], second, kRoundOff);
+  EXPECT_NEAR(d[7], first, kOffsetRoundOff);
+  EXPECT_NEAR(d[400], second, kOffsetRoundOff);
 }
 
 TEST_P(Offsets, AboveTheDistanceFromAnotherSourceChangeLittle) {
@@ -111,7 +111,7 @@ TEST_P(Offsets, HoldInsideFaces) {
   set.offsets = {2.5};
   auto d = solve(*method, set).distances;
   for (double& x : d) x -= 2.5;
-  EXPECT_LE(relative_difference(d, plain), kRoundOff * 10);
+  EXPECT_LE(relative_difference(d, plain), kOffsetRoundOff * 10);
 }
 
 INSTANTIATE_TEST_SUITE_P(Methods, Offsets,

@@ -7,7 +7,7 @@
 namespace geotherm::test {
 namespace {
 
-constexpr double kRounding = 1e-9;
+constexpr double kMouseRounding = 1e-9;
 
 /// A camera as the log names it.
 struct Place {
@@ -67,9 +67,9 @@ TEST_F(Mouse, MovesTheCameraAsTheTableOfKeysSays) {
 
   EXPECT_GT(closer.zoom, moved.zoom);
   EXPECT_EQ(closer.azimuth, moved.azimuth);
-  EXPECT_NEAR(farther.zoom, moved.zoom, kRounding * moved.zoom);
-  EXPECT_NEAR(farther.right, moved.right, kRounding);
-  EXPECT_NEAR(farther.up, moved.up, kRounding);
+  EXPECT_NEAR(farther.zoom, moved.zoom, kMouseRounding * moved.zoom);
+  EXPECT_NEAR(farther.right, moved.right, kMouseRounding);
+  EXPECT_NEAR(farther.up, moved.up, kMouseRounding);
   quit();
 }
 
