@@ -30,7 +30,7 @@ struct Renderer::State {
   std::shared_ptr<Device::State> device;
   FrameRecorder recorder;
 
-  // Of the model, on this side.
+  // The model, as the processor has it.
   std::vector<glm::vec3> positions;
   std::vector<std::array<std::uint32_t, 3>> faces;
   bool solid = false;

@@ -92,8 +92,8 @@ class CanvasInput {
 
   Tool tool = Tool::kSource;
 
-  /// Of Explored::places: what the pointer is at, hidden ones where no other is, or else what was
-  /// clicked last.
+  /// The number in Explored::places of what the pointer is at (hidden ones where no other is), or
+  /// else of what was clicked last.
   std::optional<std::size_t> pointed(const Frame& frame) const;
 
   /// Before a click sets one source in place of all: where they are several, they can be had back.

@@ -118,7 +118,8 @@ void draw_model_panel(Frame& frame) {
 
 namespace {
 
-/// Of a system that was meant to be solved, with factors of single and of double precision.
+/// A residual above these is too large for a system that was solved with factors of single and of
+/// double precision.
 constexpr double kLargeCompactResidual = 1e-4, kLargeResidual = 1e-6;
 constexpr double kFarSource = 0.5;  ///< mean edges: a source that is not near 0 is worth a colour
 

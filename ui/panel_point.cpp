@@ -46,7 +46,7 @@ void draw_figures(Frame& frame, const SurfacePoint& point) {
   draw_position(frame, figures.position);
 }
 
-/// Of a point that a cut shows.
+/// The figures of a point that a cut shows.
 void draw_inside(Frame& frame, const InsidePoint& point) {
   const bool error = frame.state().picture.view == app::View::kExactError;
   const bool difference = frame.state().shown == app::Shown::kDifference;

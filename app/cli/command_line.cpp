@@ -24,7 +24,7 @@
 namespace geotherm::app {
 namespace {
 
-/// Of several processes that work together the first one speaks.
+/// Whether this process may speak: where several work together, the first one does.
 bool is_first_rank() { return launched_as().rank == 0; }
 
 int fail(int code, const std::string& message) {

@@ -277,7 +277,7 @@ struct CentreArguments {
 void add_centre_options(CLI::App& command, CentreArguments& arguments);
 Result<CommandOutput> run_centre(const CentreArguments& arguments, const Progress& progress = {});
 
-/// Of `transport` and `extend`.
+/// What `transport` and `extend` were given.
 struct SpreadArguments {
   std::string model;
   SettingArguments settings;

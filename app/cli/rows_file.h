@@ -91,9 +91,9 @@ class RowsFile {
   Result<void> finish() { return rows_ ? rows_->finish() : sparse_->finish(); }
 
   Index columns() const { return columns_; }
-  /// Of sparse rows: so many distances.
+  /// How many distances sparse rows hold; nothing for an array.
   std::optional<std::uint64_t> entries() const;
-  /// Of sparse rows those of the numbers so far.
+  /// The size of the file; of sparse rows, that of the numbers written so far.
   double bytes() const;
   std::string size_in_words() const;
 

@@ -31,7 +31,7 @@ struct SampleFigures {
   double relaxing_ms = 0;
   int ranks = 1;  ///< that took the samples together
 
-  /// Of every vertex, to the samples where they are in the end.
+  /// The distance of every vertex to the nearest sample, where the samples are in the end.
   const std::vector<double>& distances() const {
     return relaxed ? relaxed->distances : points.distances;
   }

@@ -51,7 +51,7 @@ PictureData words_about(const std::vector<PictureData>& cells) {
   return words;
 }
 
-/// Of the letters of a picture of this size.
+/// The height of a line of letters, in pixels, that suits a picture of this size.
 float usual_line(glm::vec2 extent) { return std::max(13.0F, std::min(extent.x, extent.y) / 38); }
 
 class EngineDrawing final : public Drawing {

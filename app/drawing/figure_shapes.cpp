@@ -16,7 +16,7 @@ using Eigen::Vector2d;
 
 /// Between places where it is asked whether a line is seen, scene units.
 constexpr double kStep = 0.01;
-/// Of a pixel: what is left out of a line's points.
+/// A point of a line is left out where that moves the line by less than this, in pixels.
 constexpr float kShapeTolerance = 0.05F;
 
 Vec3 to_vec3(const PictureData::Vector& v) { return {v[0], v[1], v[2]}; }

@@ -30,8 +30,8 @@ namespace {
 using PageJson = nlohmann::ordered_json;
 using Numbers = std::vector<std::uint32_t>;
 
-/// Of a quantised coordinate: a millionth of the box, below a pixel at any zoom that shows more
-/// than a few triangles of a million; of small models as fine as 32-bit floats.
+/// Bits of a quantised coordinate: a millionth of the box, which is below a pixel at any zoom that
+/// shows more than a few triangles of a million; small models keep the precision of 32-bit floats.
 constexpr int kCoordinateBits = 20, kFineBits = 24;
 constexpr std::size_t kSmallModel = 100'000;
 constexpr int kNormalBits = 12, kVectorBits = 12, kValueBits = 24;

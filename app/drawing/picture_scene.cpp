@@ -125,8 +125,8 @@ std::vector<engine::Key> keys_of(const PictureData& data, const PictureSettings&
   return keys;
 }
 
-/// Of letters: 0 where they suit the picture. Fonts are called by the size of their em, of which a
-/// line is a little more.
+/// How high a line of letters is, in pixels; 0: it suits the picture. Fonts are named by the size
+/// of their em, and a line is a little higher than that.
 float line_height_of(const PictureSettings& settings) {
   if (!settings.text_size && !settings.paper) return 0;
   return static_cast<float>(kLineOfEm *

@@ -194,7 +194,8 @@ void remove_beyond(const PlaneInScene& cut, PictureData& data) {
   }
 }
 
-/// Of the faces that are left; where there is none inside `none`.
+/// The values of the faces that are left; a face of the cut, which has none of its own, gets
+/// `none`.
 template <class Value>
 std::vector<Value> left_of(const std::vector<Value>& all, const std::vector<Index>& origin,
                            const Value& none) {

@@ -188,7 +188,7 @@ Result<std::string> figure_bytes(const DrawnPicture& picture, FigureFormat forma
   const MemoryFont font(picture.figure->font);
   if (font.face() == nullptr) return Error{ErrorCode::kBadFile, "the font cannot be read"};
   std::string bytes;
-  // Of a PDF points; of an SVG millimetres on paper, and pixels elsewhere.
+  // A PDF is measured in points, an SVG in millimetres on paper and in pixels elsewhere.
   double scale = 1;
   if (format == FigureFormat::kPdf) {
     scale = 72.0 / dpi.value_or(kUsualDpi);

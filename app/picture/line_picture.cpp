@@ -233,7 +233,7 @@ class SvgDrawing {
     write(0.5 * settings_.width, 14 * unit_ + text_size(), settings_.title, "middle");
   }
 
-  /// Of isolines; paths are twice as wide.
+  /// The width of isolines; paths are twice as wide.
   double line_width() const {
     if (!settings_.line_width && !settings_.paper) return 1.6 * unit_;
     return pixels_of(settings_.line_width.value_or(kLinesOnPaper), settings_);

@@ -15,7 +15,7 @@ namespace {
 
 using Eigen::Vector2d;
 
-/// Of the eye from the middle of the model, in its radii: a view of 30 degrees holds the model.
+/// How far the eye is from the middle of the model, in its radii: 30 degrees then hold the model.
 constexpr double kEye = 3.9;
 
 double radians(double degrees) { return degrees * std::numbers::pi / 180; }

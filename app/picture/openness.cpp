@@ -105,7 +105,8 @@ class DepthMap {
   std::vector<float> highest_, lowest_;
 };
 
-/// Of each vertex, weighted by area; where faces run both ways round, the first one's side.
+/// The normal at each vertex, by the area of its faces; where faces are turned against each other,
+/// on the side of the first one.
 std::vector<Vector3f> vertex_normals_in_scene(std::span<const PictureData::Vector> positions,
                                               std::span<const Triangle> faces) {
   std::vector<Vector3f> normals(positions.size(), Vector3f::Zero());

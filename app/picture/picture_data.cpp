@@ -22,7 +22,7 @@ PictureData::Vector to_float(const Vec3& v) {
 /// The map from model to scene; in steps that stay within the range of doubles whatever it is.
 class SceneSpace {
  public:
-  /// Of the vertices that faces use.
+  /// The space that the vertices of faces take up.
   explicit SceneSpace(const TriangleMesh& mesh)
       : SceneSpace(mesh.faces() | std::views::join |
                    std::views::transform([&mesh](Index v) { return mesh.positions()[v]; })) {}

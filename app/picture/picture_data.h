@@ -52,7 +52,7 @@ struct PictureData {
   double value_unit = 1;      ///< model units; the largest distance, 1 if there is none above 0, or
                               ///< that of another frame
   double largest_value = 0;   ///< of `values`: 1, or 0 when no distance is above 0
-  /// Of `values`, where there are some: the ends, and the least one above 0 (0: none is).
+  /// The least and the greatest of `values`, where there are some, and the least above 0 (0: none).
   float smallest_value = 0, greatest_value = 0, smallest_positive = 0;
   bool unreached = false;          ///< some corner of a face has no value
   bool is_signed = false;          ///< `values` run from -1 to 1: a difference

@@ -39,7 +39,7 @@ std::string counted_cells(std::span<const double> values, const std::string& cel
   return '(' + grouped(some) + "\u00a0" + cell + (some == 1 ? ")" : "s)");
 }
 
-/// Of the tets, where a view is about the gradients in them; empty where it is about faces.
+/// A value for each tet, where the view is about gradients in tets; empty where it is about faces.
 std::vector<double> values_of_tets(QualityField field, const TetMesh& volume,
                                    const DistanceResult& answer) {
   std::vector<double> out;

@@ -217,7 +217,7 @@ inline constexpr PaperLength kLinesOnPaper{0.5, PaperUnit::kPoint};
 /// What a picture's file says: `dpi`, or what a size on paper was drawn with.
 std::optional<int> said_dpi(const PictureSettings& settings);
 
-/// Of `dpi` where it is said; else 300 on paper and 96 elsewhere.
+/// Pixels an inch: `dpi` where it is set; else 300 on paper and 96 elsewhere.
 int dots_per_inch(const PictureSettings& settings);
 
 double pixels_of(const PaperLength& length, const PictureSettings& settings);
@@ -227,7 +227,7 @@ double pixels_of(const PaperLength& length, const PictureSettings& settings);
 Result<void> fit_to_paper(PictureSettings& settings);
 
 /// What X, Y (up) and Z of a picture whose Y is up become: the shortest turn takes Y to the axis.
-/// Of kAuto those themselves.
+/// kAuto leaves them as they are.
 std::array<std::array<double, 3>, 3> axes_of(UpAxis up);
 
 int frame_count(const PictureSettings& settings);

@@ -17,7 +17,7 @@ namespace {
 
 using Eigen::Vector2d;
 
-/// Of a grid point that shows no surface; all tones are above it.
+/// The tone of a grid point that shows no surface; all others are above it.
 constexpr double kNothing = -1;
 
 constexpr std::array kLevels = {-0.5, 0.45, 0.6, 0.72, 0.82, 0.9};

@@ -38,7 +38,7 @@ class WordReader {
   const std::string& peek() const { return words_[next_].text; }  ///< precondition: !at_end()
   const std::string& next() { return words_[next_++].text; }      ///< precondition: !at_end()
 
-  // Of the next word; each precondition: !at_end().
+  // Each of these reads the next word. Precondition: !at_end().
   Result<double> number(double least, double most);
   Result<int> whole(const char* what = "the number of a source, from 0");
   Result<std::vector<Index>> vertices();

@@ -13,8 +13,9 @@
 namespace geotherm::app {
 namespace {
 
-/// Of Open MPI, of MPICH and its relatives, of Slurm's srun. A batch script of Slurm, which srun
-/// has not started, has SLURM_PROCID, but no step.
+/// The variables by which Open MPI, MPICH with its relatives, and Slurm's srun tell a process its
+/// rank and their number. A batch script of Slurm, which srun has not started, has SLURM_PROCID,
+/// but no step.
 constexpr std::array<std::array<const char*, 2>, 3> kLaunchers = {
     {{"OMPI_COMM_WORLD_RANK", "OMPI_COMM_WORLD_SIZE"},
      {"PMI_RANK", "PMI_SIZE"},

@@ -134,7 +134,7 @@ std::vector<Sculptor::Moved> Sculptor::patch(const FacePoint& point, double radi
   return moved;
 }
 
-/// Of the faces at the patch, by area and weight; 0 where they cancel.
+/// The mean normal of the faces at the patch, by area and weight; 0 where they cancel.
 Vec3 Sculptor::normal(const std::vector<Moved>& patch, double radius) const {
   Vec3 sum = Vec3::Zero();
   for (const auto& [v, weight] : patch) {

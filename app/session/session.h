@@ -120,7 +120,8 @@ class Session {
   /// method, unless that has been done for what is shown or goes on. Precondition: the answer of A
   /// is by the heat method. Where work goes on or waits, nothing happens yet.
   void study();
-  /// Of what is shown, whatever its factor; empty where study() has not been asked for it.
+  /// The error over time factors of what is shown, whatever its own factor is; empty where study()
+  /// has not been asked for it.
   const SessionStudy& error_study() const;
 
   /// The commands since the start as a script; drags of the camera in one line each.

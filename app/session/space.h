@@ -184,7 +184,7 @@ class PolygonSpace final : public Space {
   PolygonSpace(std::shared_ptr<const CellComplex> cells,
                std::shared_ptr<const TriangleMesh> triangles, std::vector<Index> cells_of_faces,
                std::vector<char> used);
-  /// Of a polygon among the cells.
+  /// The number that a polygon has among the cells.
   Index place_of(Index cell) const;
 
   std::shared_ptr<const CellComplex> cells_;

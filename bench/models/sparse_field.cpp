@@ -101,7 +101,7 @@ void SparseField::sample_group(Block& block, int group, Sculpture::Parts parts) 
   double d = 0;
   const std::vector<int> near = sculpture_.cull(at(1, 1, 1), reach, parts, d);
   parts_.insert(parts_.end(), near.begin(), near.end());
-  // Of a group that is far from the surface, its middle is enough.
+  // A group that is far from the surface is known well enough by its middle.
   const bool far =
       std::abs(d) > kNear * spacing_ + Sculpture::kSteepest * reach + sculpture_.detail_height();
   for (int i = 0; i < 8; ++i) {

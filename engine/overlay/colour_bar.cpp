@@ -125,7 +125,7 @@ std::vector<const Tick*> ticks_on(const std::vector<Tick>& ticks) {
   return sorted;
 }
 
-/// Of these, those whose labels keep `gap` (a share of the bar).
+/// The ticks whose labels are at least `gap` (a share of the bar) apart.
 std::vector<const Tick*> ticks_apart(const std::vector<Tick>& ticks, float gap) {
   std::vector<const Tick*> kept;
   for (const Tick* tick : ticks_on(ticks)) {

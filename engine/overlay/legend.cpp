@@ -12,7 +12,7 @@ namespace {
 /// Below this smaller side a bar would leave nothing to the model.
 constexpr float kSmallestForBar = 160;
 constexpr float kSmallestForCaption = 90;
-/// Of keys, in lines: how wide the colour is, and where the words begin.
+/// How wide the colour of a key is and where its words begin, in heights of a line.
 constexpr float kSwatch = 1.6F, kKeyOffset = 1.3F * kSwatch;
 
 Measures measures_of(const Legend& legend, glm::vec2 extent) {

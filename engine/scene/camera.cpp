@@ -44,7 +44,7 @@ Axes axes_of(const Orbit& orbit) {
           axes * (std::sin(roll) * right + std::cos(roll) * up), axes * back};
 }
 
-/// Of the sphere that is fitted, along the axes.
+/// The centre of the sphere that is fitted into the picture, along the axes.
 dvec3 centre_of(const Orbit& orbit, const Axes& axes) {
   const glm::vec3& c = orbit.centre;
   if (!std::isfinite(c.x + c.y + c.z)) return dvec3(0);

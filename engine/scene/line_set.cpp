@@ -9,8 +9,8 @@
 namespace geotherm::engine {
 namespace {
 
-/// Of scene space, which has radius 1: a few roundings of single precision. The direction of a
-/// shorter piece is only noise.
+/// The shortest piece of a line, in a scene of radius 1: a few roundings of single precision. The
+/// direction of a shorter one is only noise.
 constexpr float kShortestPiece = 1e-6F;
 
 bool is_finite(const glm::vec3& p) { return std::isfinite(p.x + p.y + p.z); }
@@ -55,7 +55,8 @@ std::vector<LinePiece> line_pieces(std::span<const glm::vec3> points) {
 
 namespace {
 
-/// Of a pixel: nobody sees it, and antialiasing hides the rest.
+/// How far, in pixels, a line may leave its points: nobody sees it, and antialiasing hides the
+/// rest.
 constexpr float kTolerance = 0.2F;
 constexpr std::size_t kLongestRun = 256;
 

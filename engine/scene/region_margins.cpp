@@ -44,7 +44,7 @@ class Margins {
   static constexpr float kNothingNear = std::numeric_limits<float>::max();
   static constexpr float kLeast = 1e-6F;
 
-  /// Of the distance to the source of another region from a vertex, less that to its own.
+  /// How much farther a vertex is from the source of another region than from its own.
   struct Other {
     float sum = 0;  ///< of those found by gradients
     int count = 0;

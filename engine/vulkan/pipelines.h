@@ -13,8 +13,8 @@ class Pipelines {
  public:
   explicit Pipelines(std::shared_ptr<Device::State> device);
 
-  /// Of the targets that will be drawn into; another format than before forgets all pipelines,
-  /// those of both sample counts are kept.
+  /// Chooses the format and the sample count of the targets that will be drawn into. A change of
+  /// the format forgets all pipelines; those of both sample counts are kept.
   void use(vk::Format format, vk::SampleCountFlagBits samples);
 
   vk::DescriptorSetLayout set_layout() const { return *set_layout_; }

@@ -37,7 +37,7 @@ class StraightLine {
   bool is_within(const Vec3& place, double reach, Index& hint) const {
     const Piece& piece = pieces_[static_cast<std::size_t>(hint)];
     const double left = reach - piece.offset;
-    // Of a curve's piece the beginning is tried, which costs no more than a point.
+    // The beginning of a curve's piece is tried first, which costs no more than a point.
     if (left >= 0 && (place - piece.from).squaredNorm() <= left * left) return true;
     return find_within(place, reach, hint);
   }

@@ -84,7 +84,7 @@ class Lloyd {
     if (!answer) return answer.error();
     out.distances = std::move(answer->distances);
     out.nearest = std::move(answer->nearest_source);
-    // Of points in one place the first has the cell.
+    // Where several points are in one place, the first has the cell.
     std::vector<Index> point_of(static_cast<std::size_t>(groups.count), kNoIndex);
     for (auto p = static_cast<Index>(points.size()); p-- > 0;) point_of[groups.of_point[p]] = p;
     for (Index& group : out.nearest) group = group == kNoIndex ? kNoIndex : point_of[group];

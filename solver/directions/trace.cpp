@@ -54,7 +54,7 @@ class Tracer {
     return go_from_vertex(v, angle);
   }
 
-  /// Of the last piece, in the layout of its face.
+  /// The direction of the last piece, as an angle in the layout of its face.
   double direction() const { return std::atan2(direction_.y(), direction_.x()); }
   Index face() const { return face_; }
 

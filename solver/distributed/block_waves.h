@@ -29,19 +29,20 @@ class BlockWaves {
                                                    std::span<const char> is_source);
 
   const MeshBlock& block() const { return block_; }
-  /// Of the faces that it has; a vertex is one of the block.
+  /// The tables of the faces that it has; vertices are numbered as in the block.
   const WaveTables& tables() const { return tables_; }
 
   struct NamedEdge {
     EdgeName name;
     Index edge;
   };
-  /// Of faces that others have as well: those whose ends and length no other edge here has.
+  /// Edges of faces that other blocks have as well, but for those that share ends and length with
+  /// another edge here.
   std::span<const NamedEdge> edges() const { return edges_; }
   /// kNoIndex where there is none.
   Index find(const EdgeName& name) const;
 
-  /// Of the block's vertices in its units; kUnreached where it does not have them.
+  /// The distances of the block's vertices, in its units; kUnreached where it has none.
   std::vector<double> distances() const;
 
   /// A vertex by its rank, or an edge e as -1 - e, of which the sample in the middle is meant.

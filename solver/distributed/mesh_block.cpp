@@ -36,7 +36,7 @@ double mark_of(GlobalIndex id) {
   return 1 + static_cast<double>(x >> 11) * 0x1p-53;
 }
 
-/// Of each row.
+/// The star of each row.
 std::vector<Star> stars_of(const MeshPart& part, const MeshBlock& block) {
   const OperatorMesh& mesh = *block.surface->operators;
   const double square = block.surface->unit * block.surface->unit;

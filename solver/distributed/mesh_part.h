@@ -47,8 +47,8 @@ Result<MeshSlice> read_ply_slice(const std::string& path, int part, int parts);
 /// the order of their global numbers, then the rings of the halo, one after the other.
 struct MeshPart {
   GlobalIndex vertices = 0, faces = 0;  ///< of all ranks
-  /// Of lengths, model units: a power of two as large as the coordinates, so that no square of a
-  /// length leaves the range of doubles.
+  /// The unit of lengths, in model units: a power of two as large as the coordinates, so that no
+  /// square of a length leaves the range of doubles.
   double unit = 1;
   std::vector<GlobalIndex> first;    ///< ranks + 1: the first own global number of each
   Index own = 0;                     ///< vertices that this rank owns

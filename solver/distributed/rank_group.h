@@ -121,7 +121,7 @@ struct WideNumber {
     mantissa = std::frexp(value, &own);
     exponent = own + shift;
   }
-  /// Of this times 2^-reference; 0 where that is too small for a double.
+  /// This number times 2^-reference; 0 where that is too small for a double.
   double relative_to(std::int32_t reference) const {
     return mantissa == 0 ? 0.0 : std::ldexp(mantissa, std::max(exponent - reference, -2000));
   }

@@ -45,8 +45,8 @@ Result<SharedHeat> diffuse_over_ranks(const SharedTask& task, std::span<const Me
 /// The sources in a block, where it has any on its surface.
 SourceAnchors anchors_in(const SharedTask& task, const MeshBlock& block);
 
-/// Of the surface of a block what is asked of it once its sources are placed: faces in their order,
-/// and no more of the mesh that they came from. `analysis`: with what a factor is made by.
+/// What a block's surface is still asked for once its sources are placed: faces in their order,
+/// without the mesh that they came from. `analysis`: with what a factor is made by.
 std::shared_ptr<const Surface> faces_alone(const Surface& surface, bool analysis);
 
 /// X of a block, as FaceField has it, for its own vertices.

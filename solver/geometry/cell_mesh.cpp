@@ -180,7 +180,7 @@ class CellMeshBuilder {
         if (of_poisson != nullptr) {
           const auto [low, high] = std::minmax(own, k);
           const auto at = stabilizer[out_.given_cell[c]] + high * (high + 1) / 2 + low;
-          // Of the same units as measure times gradients squared.
+          // This has the units of measure times gradients squared.
           const double held = cells_.stabilizers[at] * unit_ * unit_ * out_.measures[c] /
                               cells_.measures[out_.given_cell[c]];
           entries[place] += held;

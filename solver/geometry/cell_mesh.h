@@ -65,12 +65,12 @@ struct CellMatrix {
   RawVector<Index> column;
   RawVector<double> entry;          ///< of the heat step
   RawVector<double> poisson_entry;  ///< with less of the stabilizers; empty: the same
-  /// Of each pair the consistent mass, measure / (k (k + 1)) from each cell of k corners at both,
-  /// as simplices have it; empty where all mass is lumped.
+  /// The consistent mass of each pair: measure / (k (k + 1)) from each cell of k corners that has
+  /// both, as simplices have it; empty where all mass is lumped.
   RawVector<double> shared_mass;
 
   Index size() const { return static_cast<Index>(mass.size()); }
-  /// Of the heat step where there is a mass, else of the Poisson equation.
+  /// The entries of the heat step where there is a mass factor, else those of the Poisson step.
   const double* entries(double mass_factor) const {
     return (mass_factor == 0 && !poisson_entry.empty() ? poisson_entry : entry).data();
   }

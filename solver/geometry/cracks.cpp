@@ -15,7 +15,8 @@
 namespace geotherm {
 namespace {
 
-/// Of the mean edge: nothing, the rounding of 32-bit floats and of printed digits, a sloppy export.
+/// Widths of cracks that are tried, as shares of the mean edge: nothing, the rounding of 32-bit
+/// floats and of printed digits, a sloppy export.
 constexpr double kShares[] = {0, 1e-6, 1e-4, 1e-2};
 
 /// The least number of one digit, such as 3e-05, that is not below x. Precondition: x > 0, finite.

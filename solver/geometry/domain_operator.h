@@ -75,8 +75,8 @@ class DomainOperator : public SymmetricOperator {
   /// Appends the rows that share a cell with row i, i among them, some more than once.
   virtual void list_neighbors(Index i, std::vector<Index>& rows) const = 0;
 
-  /// Of each row the columns that it has not in `sets`, while a row has them that shares a cell
-  /// with it. `listed` gets the rows with any, in any order.
+  /// For each row, the columns that it lacks in `sets` and that a row which shares a cell with it
+  /// has there. `listed` gets the rows with any, in any order.
   virtual std::vector<ColumnSet> columns_beside(std::span<const ColumnSet> sets, int threads,
                                                 std::vector<Index>& listed) const = 0;
 

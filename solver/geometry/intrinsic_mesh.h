@@ -36,7 +36,7 @@ struct IntrinsicMesh {
   std::vector<Side> twin;                      ///< 3F: the other side of the edge, or kNoSide
   double unit = 1.0;                           ///< length of 1 in model units: the mean edge length
   Mollification mollified;                     ///< what was added to lengths, in units of `unit`
-  /// Of the tufted cover, empty elsewhere: for every face of the surface (they come first) the
+  /// On the tufted cover, and empty elsewhere: for every face of the surface (they come first) the
   /// number of its back before flips, kNoIndex where its component has none.
   std::vector<Index> back;
 

@@ -54,8 +54,8 @@ struct IntrinsicSurface {
   /// Before flips; shared where the mesh has moved. Never null.
   std::shared_ptr<const KeptFaces> kept = std::make_shared<const KeptFaces>();
   IntrinsicMesh intrinsic;  ///< after all edits; vertices from V on were inserted
-  /// Of intrinsic.faces; for the set-up, which may drop it. Empty where an earlier surface was
-  /// given.
+  /// The corner table of intrinsic.faces, for the set-up, which may drop it. Empty where an earlier
+  /// surface was given.
   CornerTable corners;
   std::vector<Edit> edits;  ///< from kept->faces (and backs) to intrinsic.faces
   Index flips = 0;          ///< edits that are flips
@@ -66,11 +66,11 @@ struct IntrinsicSurface {
   bool delaunay = false;          ///< flips were asked for or needed
   bool tufted = false;            ///< some component is its tufted cover
   double mean_edge = 0;           ///< of the mesh, model units
-  /// Of lengths and of distances within it, model units: the mean edge or one near it.
+  /// What lengths and distances within it are measured by, in model units: the mean edge or nearly.
   double length_unit() const { return intrinsic.unit; }
   /// V and inserted vertices.
   Index vertex_count() const { return mesh->vertex_count() + refinement.points; }
-  /// Of a vertex of the mesh or an inserted one, model units.
+  /// Where a vertex of the mesh or an inserted one is, in model units.
   const Vec3& position(Index vertex) const {
     const Index own = mesh->vertex_count();
     return vertex < own ? mesh->positions()[vertex] : refinement.positions[vertex - own];

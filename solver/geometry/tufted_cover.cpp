@@ -140,7 +140,7 @@ void make_tufted_cover(IntrinsicMesh& mesh, std::span<const Vec3> positions,
   for (Index e = 0; e < clean.edges.edge_count(); ++e) {
     if (!doubled[face_of(clean.edges.sides(e).front())]) continue;
     const std::span<const Side> sides = in_order(e);
-    // Of the two copies of a side one runs upwards, low to high, and looks towards the next side.
+    // Each side has two copies: one runs upwards, low to high, and looks towards the next side.
     const auto copy = [&](Side side, bool upwards) {
       const bool front = clean.faces[face_of(side)][corner_of(side)] == clean.edges.low(e);
       return front == upwards ? side : on_back(mesh, side);

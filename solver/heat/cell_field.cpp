@@ -42,7 +42,7 @@ CellField::Square CellField::inverse_square(Index cell) const {
   if (!shortens_) return {};
   const CellMesh& mesh = *domain_.mesh;
   const int d = mesh.dimension;
-  // Of fewer than three dimensions the others are the identity's.
+  // Where there are fewer than three dimensions, the identity fills up the others.
   Eigen::Matrix3d square = Eigen::Matrix3d::Identity();
   for (int i = 0; i < d; ++i) square(i, i) = 0;
   const double* at = mesh.gradients_of(cell);
@@ -51,7 +51,8 @@ CellField::Square CellField::inverse_square(Index cell) const {
       for (int j = 0; j < d; ++j) square(i, j) += at[i] * at[j];
     }
   }
-  // Of cells that are thin, such as the edges of a grid's corridors, along their own directions.
+  // A cell that is thin, such as an edge of a grid's corridor, has an inverse along its own
+  // directions alone.
   constexpr double kThin = 1e-12;
   const double mean = square.trace() / 3;
   Square out;

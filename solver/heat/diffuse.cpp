@@ -52,7 +52,7 @@ struct Extremes {
   static constexpr std::size_t kLanes = 16;
 };
 
-/// Of each column, all components together: one pass along memory.
+/// The extremes of each column, over all components together: one pass along memory.
 Extremes extremes_of(const Block& u, const Workspace& work) {
   Extremes all(u.cols());
   std::mutex mutex;

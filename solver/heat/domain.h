@@ -99,7 +99,7 @@ struct Domain {
   /// Whether a row is a vertex of the input, not one that was inserted.
   bool is_of_input(Index row) const { return vertex_of_row[row] < input_vertices; }
 
-  /// Of the rows; numbered as `components`.
+  /// The components of the rows, numbered as `components`.
   virtual const Components& parts_of_rows() const = 0;
   virtual std::span<const double> mass() const = 0;  ///< n, lumped, > 0
 

@@ -95,7 +95,7 @@ Result<void> FarField::extend(std::span<const Eigen::Index> columns, const Range
   return {};
 }
 
-/// Of the entries of columns_, all rows.
+/// The range of the entries of columns_ in each component, over all rows.
 FarField::Range FarField::range() const {
   Range all(components_.count, std::ssize(columns_));
   std::mutex mutex;
@@ -156,7 +156,8 @@ FarField::Far FarField::below(const Range& range, const Rows& candidates) const 
   return far;
 }
 
-/// Of rows begin to end, those entries of columns_ that are below these values of their component.
+/// Marks the entries of columns_, in rows begin to end, that are below these values of their
+/// component.
 void FarField::mark_below(const Block& least, std::int64_t begin, std::int64_t end,
                           Rows& rows) const {
   const auto columns = std::ssize(columns_);

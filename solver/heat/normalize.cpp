@@ -11,7 +11,7 @@
 namespace geotherm {
 namespace {
 
-/// Of the largest distance: values below 0 by less are what solvers leave of a 0.
+/// Values below 0 by less than this share of the largest distance are what solvers leave of a 0.
 constexpr double kRoundOff = 1e-6;
 
 /// Minimum vertices per thread, with one column.

@@ -53,7 +53,7 @@ std::span<const char> held_at_zero(const QueryPipeline& p) {
   return p.domain.on_boundary;
 }
 
-/// Of the components that hold a source.
+/// The most extreme diffusion time of the components that hold a source.
 double extreme_time(const DiffusionTimes& times, const SourceAnchors& anchors) {
   double extreme = times.relative.of(anchors.components.front());
   for (const Index component : anchors.components) {

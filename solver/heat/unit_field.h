@@ -61,7 +61,7 @@ class FaceField final : public UnitField {
   void measure_trust(const Block& high, const Block& low);
   bool measure_width(const Block& high, const Block& low, std::span<const double> area,
                      const PerComponent& t);
-  /// Of the component of a row; 1 where there are none.
+  /// The value of the row's component; 1 where there are no components.
   double at(const std::vector<double>& values, Index row, Eigen::Index column) const;
   double length(Index face, Eigen::Index column) const;
   double root_t(Index face) const {

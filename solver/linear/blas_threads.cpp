@@ -72,7 +72,7 @@ bool BlasThreads::has_room(std::int64_t bytes_beside) {
   const std::lock_guard lock(guard());
   if (!adjustable()) return true;
   for (const int threads : {threads_, 1}) {
-    // Of those that work at the same time, each may be about to ask for its own.
+    // Each of those that work at the same time may be about to ask for a buffer of its own.
     const int missing = std::max(users - 1 + threads - buffers, 0);
     const std::size_t bytes = static_cast<std::size_t>(missing) * kBufferBytes;
     if (!can_map(bytes + static_cast<std::size_t>(bytes_beside) + 1)) continue;

@@ -62,8 +62,9 @@ struct ColumnCounts {
   std::vector<Index> below;   ///< n: entries below the diagonal
 };
 
-/// Of a matrix with this pattern, eliminated in the order of its numbers. Cost: nearly O(entries of
-/// the pattern), whatever the factor's (Gilbert, Ng, Peyton 1994).
+/// Counts the entries of each column of the factor of a matrix with this pattern, eliminated in the
+/// order of its numbers. Cost: nearly O(entries of the pattern), however many the factor has
+/// (Gilbert, Ng, Peyton 1994).
 ColumnCounts count_columns(const SymmetricPattern& pattern);
 
 }  // namespace geotherm

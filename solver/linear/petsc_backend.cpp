@@ -131,7 +131,7 @@ class PoissonByPetsc final : public Factorization {
     return out;
   }
 
-  /// Of the matrix; what hypre keeps beside it, it does not say.
+  /// The size of the matrix; hypre does not say what it keeps beside it.
   FactorStats stats() const override {
     const auto nonzeros = std::ssize(rows_.column);
     return {.nonzeros = nonzeros,

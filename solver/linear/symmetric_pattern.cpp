@@ -17,7 +17,7 @@ void mix(std::uint64_t x, std::uint64_t& hash) {
   hash ^= hash >> 32;
 }
 
-/// Of blocks of columns of a fixed length, so that any number of threads finds the same.
+/// A hash over blocks of columns of a fixed length, so that any number of threads finds the same.
 /// rows_below(j): the rows of column j below the diagonal, ascending.
 template <class RowsBelow>
 std::uint64_t hash_of_columns(Index size, int threads, const RowsBelow& rows_below) {

@@ -11,8 +11,8 @@
 
 namespace geotherm {
 
-/// Of a mesh whose faces are cut into four so often. More than 16 times count as 16, which already
-/// are more faces than can be numbered.
+/// How many faces there are when each has been cut into four so often. More than 16 times count as
+/// 16, which makes more faces than can be numbered already.
 inline std::int64_t refined_faces(Index faces, int times) {
   return std::int64_t{faces} << (2 * std::clamp(times, 0, 16));
 }

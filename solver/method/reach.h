@@ -9,8 +9,8 @@ namespace geotherm {
 /// distance that is not above 0, a target out of range, with its place).
 Result<void> check_reach(const Reach& reach, Index vertices);
 
-/// Of an answer for all vertices what is asked for: beyond the largest distance nothing, and with
-/// targets or Reach::sparse a list. Precondition: check_reach(). Cost: O(V).
+/// Cuts an answer for all vertices down to what is asked for: nothing beyond the largest distance,
+/// and a list with targets or Reach::sparse. Precondition: check_reach(). Cost: O(V).
 void keep_reach(const Reach& reach, DistanceResult& result);
 
 }  // namespace geotherm

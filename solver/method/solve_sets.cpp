@@ -48,7 +48,7 @@ class SetRunner {
     }
   }
 
-  /// Of several failures the first set's counts, but for those that the stop itself brought about.
+  /// Keeps the failure of the first set, but for those that the stop itself brought about.
   void fail(std::size_t set, Error error) {
     const std::lock_guard lock(mutex_);
     const bool caused = failure_ && error.code == ErrorCode::kCancelled;

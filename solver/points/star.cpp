@@ -124,8 +124,8 @@ Vec3 fitted_normal(const Neighbourhood& around) {
 }
 
 double sheet_gap(const Neighbourhood& around, const Vec3& normal) {
-  // Of equal parts of two values the fourth moment is the square of the second; of an even spread,
-  // as curvature and creases make it, it is 1.8 of it, of noise 3.
+  // The fourth moment in squares of the second: 1 for two values in equal parts, 1.8 for an even
+  // spread, as curvature and creases make it, 3 for noise.
   constexpr double kTwoValues = 1.3;
   constexpr double kFlat = 0.02;  // in units of the neighbourhood
   const double count = around.count;

@@ -71,7 +71,7 @@ class WaveFront {
 
   /// After run(), by rank, in units of the intrinsic mesh; kUnreached where no source can be.
   std::span<const double> distances() const { return distance_; }
-  /// Of edges, `samples` each, in their direction.
+  /// The distances of edge samples, `samples` of each edge, in the direction of the edge.
   std::span<const double> sample_distances() const { return sample_; }
   /// Whether the next run need not clear the values first.
   bool is_clean() const { return clean_; }

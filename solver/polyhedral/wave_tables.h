@@ -34,8 +34,8 @@ inline int corner_of_code(SideCode code) { return code & 3; }
 /// direction of its first side.
 struct WaveTables {
   std::vector<WaveFace> faces;
-  /// Of each edge: its first and second side. The second is kNoSideCode at the boundary; below
-  /// that, -2 - i, where more[i] holds a count and then the second and all further sides.
+  /// Each edge's first and second side. The second is kNoSideCode at the boundary; below that,
+  /// -2 - i, where more[i] holds a count and then the second and all further sides.
   std::vector<std::array<SideCode, 2>> sides;
   std::vector<SideCode> more;
 

@@ -30,7 +30,7 @@ struct SymmetricPattern {
 
   /// n.
   Index size() const { return static_cast<Index>(start.size()) - 1; }
-  /// Of row i. Precondition: i in [0, n).
+  /// The neighbours of row i. Precondition: i in [0, n).
   std::span<const Index> neighbors(Index i) const {
     return {neighbor.data() + start[i], neighbor.data() + start[i + 1]};
   }

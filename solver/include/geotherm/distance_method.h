@@ -76,7 +76,7 @@ struct SetupTiming {
   double factorize = 0;  ///< both numeric factorisations
   double setup = 0;      ///< the whole
 
-  /// Of the heat method: what `operators` consists of.
+  /// What `operators` consists of, for the heat method.
   struct Operators {
     double clean = 0;      ///< faces, edges, orientation
     double intrinsic = 0;  ///< lengths, mollification, cover
@@ -93,7 +93,7 @@ struct DistanceResult {
   QueryTiming timing;             ///< of this query
   std::vector<Warning> warnings;  ///< one sentence each
 
-  /// Of the heat method: the backend that gave the answer, and those that failed at it before.
+  /// The backend that gave the answer of the heat method, and those that failed at it before.
   std::string backend;
   std::vector<Fallback> fallbacks;  ///< in the order in which they failed
 

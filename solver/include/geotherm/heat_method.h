@@ -107,7 +107,7 @@ class HeatMethod final : public DistanceMethod {
   /// faces (of several, the first).
   double t() const;
   double relative_t() const;  ///< the same in squares of that component's mean edge
-  /// Of that component, Refinement::grading: with m = 1 what relative_t() is. 1/4 on grids with one
+  /// Refinement::grading of that component: what relative_t() is with m = 1. 1/4 on grids with one
   /// speed.
   double grading() const;
   /// The least and the largest time of a component, model units squared.

@@ -88,7 +88,7 @@ struct MeshFile {
 /// memory, and one pass over it; OBJ on all cores.
 Result<MeshFile> read_mesh(const ModelInput& input);
 
-/// Of a path, as ModelInput::open() takes it. Errors: those of both.
+/// Reads a path, as ModelInput::open() takes it. Errors: those of both.
 Result<MeshFile> read_mesh(const std::string& path, std::string_view format = {});
 
 /// From an open stream, as ModelInput::stream() takes it. Errors: those of both.

@@ -71,8 +71,8 @@ std::size_t most_bytes() {
   return static_cast<std::size_t>(std::max<std::int64_t>(*free, 0)) / 2;
 }
 
-/// Of a pipe that was opened without waiting: until something can be read or a writer has been
-/// there, but no longer than a person waits who has forgotten it.
+/// Waits until a pipe, which was opened without waiting, can be read or has had a writer, but no
+/// longer than a person would who has forgotten to start one.
 void wait_for_writer(int descriptor) {
   constexpr int kMaxMs = 2000;
   pollfd pipe{descriptor, POLLIN, 0};

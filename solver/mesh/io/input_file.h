@@ -49,7 +49,7 @@ class InputFile {
   /// The bytes of a file as they are, packed or not. Errors: the same.
   static Result<InputFile> open_as_is(const std::string& path);
 
-  /// Of an open descriptor, which stays open. `name`: of the stream, in messages. Errors: the same.
+  /// Reads an open descriptor, which stays open. `name`: what messages call it. Errors: the same.
   static Result<InputFile> of_stream(int descriptor, const std::string& name,
                                      std::string_view format = {});
 

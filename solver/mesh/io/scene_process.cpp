@@ -209,7 +209,7 @@ RawMesh read_scene(std::string_view bytes, std::string_view format, const std::s
 
 namespace {
 
-/// Of the files that a scene names, with its slash; empty: nowhere.
+/// The folder of the files that a scene names, with its slash; empty: there is none.
 std::string folder_of(const InputFile& file) {
   if (file.is_stream()) return "";
   const std::size_t slash = file.path().rfind('/');
