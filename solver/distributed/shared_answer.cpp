@@ -13,7 +13,8 @@
 namespace geotherm {
 namespace {
 
-/// Of the largest distance: values below 0 by less are what the solver leaves of a 0.
+/// Values below 0 by less than this share of the largest distance are what the solver leaves of a
+/// 0.
 constexpr double kRoundOffOfDistance = 1e-6;
 /// |M u - b| / |b| that what is no news may leave (shared_heat.h): 1e-6 of the terms of the rows at
 /// the edges of blocks, of which those near a source are as large as b, a few together.
