@@ -151,7 +151,7 @@ TEST(PictureSceneOfView, HasMarkersAsLargeAsLettersAskFor) {
   settings.height = 600;
   const PictureData data = solved();
   const auto radius = [&](std::optional<double> text) {
-    if (text) settings.text_size = PaperLength{*text};
+    if (text) settings.text_size = app::PaperLength{*text};
     const engine::Scene scene = app::scene_of(data, settings, app::picture_scale(data, settings));
     return scene.markers.radius * scene.pixel_scale;
   };
