@@ -52,26 +52,22 @@ Result<SpreadOptions> spread_options(const geotherm_options* options) {
 
 /// Each set of points as one curve, which may pass a point several times.
 Result<std::vector<SurfacePath>> curves_of(const geotherm_sources* sources, bool closed,
-                                           const Model& model, const Progress& progress) {
+                                           const HeldModel& model, const Progress& progress) {
   const auto sets = many_sets(sources, model);
   if (!sets) return sets.error();
   if (sources->starts == nullptr) {
     return bad_argument("each of the curves has one point, and a curve needs two or more",
                         {"give all points of each"});
   }
-  MethodOptions options;
-  options.method = MethodKind::kWavefront;
-  app::ModelSolver solver(model);
-  const auto ready = solver.prepare(options, part_of(progress, 0.0, 0.3));
-  if (!ready) return ready.error();
-  const PathFinder finder(model.mesh, ready->method);
+  const auto finder = model.curve_finder(part_of(progress, 0.0, 0.3));
+  if (!finder) return finder.error();
   std::vector<SurfacePath> curves;
   for (std::int64_t k = 0; k < sources->sets; ++k) {
     const std::int64_t from = sources->starts[k], count = sources->starts[k + 1] - from;
     const geotherm_sources stops = {sources->points + from, count, nullptr, 0, nullptr};
     const auto points = points_in_order(&stops, model);
     if (!points) return points.error();
-    auto found = finder.find(*points, {PathField::kGeodesic, closed, closed}, progress);
+    auto found = (*finder)->find(*points, {PathField::kGeodesic, closed, closed}, progress);
     if (!found) return found.error();
     curves.push_back(std::move(found->path));
   }
@@ -137,12 +133,38 @@ Result<std::shared_ptr<const VectorHeat>> HeldModel::vector_heat(const SpreadOpt
     const std::lock_guard lock(lock_);
     if (heat_ && heat_options_ == options) return heat_;
   }
-  auto made = VectorHeat::build(mesh, options, progress);
+  std::shared_ptr<const DistanceMethod> beside;
+  {
+    const std::lock_guard lock(lock_);
+    beside = solver_method_.lock();
+  }
+  auto made = VectorHeat::build(mesh, options, progress, beside ? beside->heat() : nullptr);
   if (!made) return made;
   const std::lock_guard lock(lock_);
   heat_ = *made;
   heat_options_ = options;
   return made;
+}
+
+Result<std::shared_ptr<const PathFinder>> HeldModel::curve_finder(const Progress& progress) const {
+  {
+    const std::lock_guard lock(lock_);
+    if (finder_) return finder_;
+  }
+  MethodOptions options;
+  options.method = MethodKind::kWavefront;
+  app::ModelSolver solver(*this);
+  const auto ready = solver.prepare(options, progress);
+  if (!ready) return ready.error();
+  auto made = std::make_shared<const PathFinder>(mesh, ready->method);
+  const std::lock_guard lock(lock_);
+  finder_ = made;
+  return made;
+}
+
+void HeldModel::note_method(const std::shared_ptr<const DistanceMethod>& method) const {
+  const std::lock_guard lock(lock_);
+  solver_method_ = method;
 }
 
 }  // namespace geotherm::c
@@ -174,6 +196,7 @@ geotherm_status geotherm_log_map(const geotherm_model* model, const geotherm_sou
     keep(*made, "frame", std::move(frame), 9);
     keep(*made, "distances", std::move(found->distances));
     keep(*made, "directions", std::move(found->directions));
+    made->warnings = std::move(found->warnings);
     hand_out_answer(std::move(made), map);
     return {};
   });
@@ -212,10 +235,12 @@ geotherm_status geotherm_transport(const geotherm_model* model, const geotherm_o
     }
     auto found = asked->heat->transport(given, part_of(watched.progress(), 0.7, 1.0));
     if (!found) return found.error();
+    const auto tangents = asked->heat->frames();
+    if (!tangents) return tangents.error();
     std::vector<double> space, components, frames;
     for (const Vec3& v : found->vectors) space.insert(space.end(), v.begin(), v.end());
     for (const auto& v : found->components) components.insert(components.end(), v.begin(), v.end());
-    for (const TangentFrame& frame : asked->heat->frames()) add_frame(frame, frames);
+    for (const TangentFrame& frame : *tangents) add_frame(frame, frames);
     auto made = std::make_shared<Answer>();
     keep(*made, "vectors", std::move(space), 3);
     keep(*made, "components", std::move(components), 2);
@@ -264,8 +289,10 @@ geotherm_status geotherm_signed_distance(const geotherm_model* model,
     const auto lines =
         curves_of(curves, closed != 0, **object, part_of(watched.progress(), 0.0, 0.3));
     if (!lines) return lines.error();
-    auto found = signed_distance((*object)->mesh, *lines, *side, *spread,
-                                 part_of(watched.progress(), 0.3, 1.0));
+    const SignedSetup setup = {
+        [&](const Progress& part) { return (*object)->directions(part); },
+        [&](const Progress& part) { return (*object)->vector_heat(*spread, part); }};
+    auto found = signed_distance(setup, *lines, *side, part_of(watched.progress(), 0.3, 1.0));
     if (!found) return found.error();
     auto made = std::make_shared<Answer>();
     keep(*made, "distances", std::move(found->distances));

@@ -280,7 +280,8 @@ GEOTHERM_API geotherm_status geotherm_relax(const geotherm_solver* solver,
 /* ---- Directions: on triangles and points alone ------------------------------------------------*/
 
 /* What they need of a model is made by the first call and kept with it: Directions for maps and
- * lines; a factorisation for values, and a second one for vectors, by the options of the last call.
+ * lines; a factorisation for values, and a second one for vectors, by the options of the last call,
+ * which share what the last solver of the model has set up.
  *
  * In a tangent frame, an angle in radians from e1 towards e2; frames are arrays of nine numbers:
  * e1, e2 and the normal. At a vertex e1 lies below its first edge, and angles are scaled to 2 pi

@@ -39,23 +39,30 @@ struct Options {
   ViewerState state = app::initial_state();
 };
 
-/// What geotherm_model is: a model, and what directions there need, which is made when it is first
-/// asked for and kept. For several threads.
+/// What geotherm_model is: a model, and what directions and curves there need, which is made when
+/// it is first asked for and kept. For several threads.
 class HeldModel : public app::Model {
  public:
   explicit HeldModel(app::Model model) : app::Model(std::move(model)) {}
 
   /// Errors: those of Directions::build().
   Result<std::shared_ptr<const Directions>> directions(const Progress& progress) const;
-  /// The last options' is kept. Errors: those of VectorHeat::build().
+  /// The last options' is kept. What a solver of the model has set up is shared. Errors: those of
+  /// VectorHeat::build().
   Result<std::shared_ptr<const VectorHeat>> vector_heat(const SpreadOptions& options,
                                                         const Progress& progress) const;
+  /// Of geodesics. Errors: those of ModelSolver::prepare().
+  Result<std::shared_ptr<const PathFinder>> curve_finder(const Progress& progress) const;
+  /// The method of a solver of this model.
+  void note_method(const std::shared_ptr<const DistanceMethod>& method) const;
 
  private:
   mutable std::mutex lock_;
   mutable std::shared_ptr<const Directions> directions_;
   mutable SpreadOptions heat_options_;
   mutable std::shared_ptr<const VectorHeat> heat_;
+  mutable std::shared_ptr<const PathFinder> finder_;
+  mutable std::weak_ptr<const DistanceMethod> solver_method_;  ///< of the last solver
 };
 
 struct Solver {

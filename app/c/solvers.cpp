@@ -207,6 +207,7 @@ geotherm_status geotherm_solver_new(const geotherm_model* model, const geotherm_
     const Watched watched(watch);
     auto made = made_ready(app::ModelSolver(**object), *asked, watched.progress());
     if (!made) return made.error();
+    (*object)->note_method((*made)->ready.method);
     hand_out(*std::move(made), solver);
     return {};
   });

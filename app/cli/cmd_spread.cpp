@@ -265,8 +265,10 @@ Result<CommandOutput> run_transport(const SpreadArguments& arguments, const Prog
     columns.push_back({name, {}});
   }
   Index reached = 0;
+  const auto frames = work->heat->frames();
+  if (!frames) return frames.error();
   for (std::size_t v = 0; v < work->spread.vectors.size(); ++v) {
-    const TangentFrame& frame = work->heat->frames()[v];
+    const TangentFrame& frame = (*frames)[v];
     for (int k = 0; k < 3; ++k) {
       columns[k].values.push_back(work->spread.vectors[v][k]);
       columns[5 + k].values.push_back(frame.e1[k]);
@@ -287,7 +289,7 @@ Result<CommandOutput> run_transport(const SpreadArguments& arguments, const Prog
     json["components"] = work->spread.components;
     json["vectors"] = json["tangent_frames"]["e1"] = json["tangent_frames"]["e2"] = Json::array();
     for (const Vec3& v : work->spread.vectors) json["vectors"].push_back({v.x(), v.y(), v.z()});
-    for (const TangentFrame& frame : work->heat->frames()) {
+    for (const TangentFrame& frame : *frames) {
       json["tangent_frames"]["e1"].push_back({frame.e1.x(), frame.e1.y(), frame.e1.z()});
       json["tangent_frames"]["e2"].push_back({frame.e2.x(), frame.e2.y(), frame.e2.z()});
     }

@@ -3,7 +3,6 @@
 
 #include <cmath>
 
-#include "solver/geometry/delaunay.h"
 #include "solver/polyhedral/window_mesh.h"
 
 namespace geotherm {
@@ -31,41 +30,37 @@ void carry(const Edit& flip, std::vector<double>& begin) {
 
 }  // namespace
 
-Result<FlippedDirections> flip_with_directions(const WaveSurface& surface, const TangentFans& fans,
-                                               const Progress& progress) {
+FlippedDirections flip_directions(const IntrinsicSurface& flipped, const TangentFans& fans) {
   FlippedDirections out;
-  out.mesh = surface.base.intrinsic;
-  const auto sides = static_cast<Side>(out.mesh.twin.size());
+  const IntrinsicMesh& mesh = flipped.intrinsic;
+  const auto sides = static_cast<Side>(mesh.twin.size());
   out.at_begin.resize(static_cast<std::size_t>(sides));
   out.at_end.resize(out.at_begin.size());
   for (Side s = 0; s < sides; ++s) {
     const auto& corner = fans.corner(s);
-    const Index v = out.mesh.faces[face_of(s)][corner_of(s)];
+    const Index v = flipped.kept->faces[face_of(s)][corner_of(s)];
     if (!out.broken && (corner.against || fans.vertex(v).kind == TangentFans::Kind::kSplit)) {
       out.broken = v;
     }
     out.at_begin[s] = corner.begin;
   }
-  auto flips = flip_to_delaunay(out.mesh, progress);
-  if (!flips) return flips.error();
-  for (const Edit& flip : *flips) carry(flip, out.at_begin);
-  out.flips = *std::move(flips);
-  for (Index v = 0; v < surface.base.mesh->vertex_count(); ++v) {
+  for (const Edit& flip : flipped.edits) carry(flip, out.at_begin);
+  for (Index v = 0; v < flipped.mesh->vertex_count(); ++v) {
     out.scale.push_back(fans.vertex(v).scale());
   }
   for (Side s = 0; s < sides; ++s) {
-    const Side twin = out.mesh.twin[s], next = next_side(s);
+    const Side twin = mesh.twin[s], next = next_side(s);
     if (twin != kNoSide) {
       out.at_end[s] = out.at_begin[twin];
       continue;
     }
-    const auto& l = out.mesh.lengths[face_of(next)];
+    const auto& l = mesh.lengths[face_of(next)];
     const int k = corner_of(next);
     const FaceLayout p = lay_out({l[k], l[next_corner(k)], l[previous_corner(k)]});
     out.at_end[s] = out.at_begin[next] + std::atan2(p.height, p.x);
   }
   for (Side s = 0; s < sides; ++s) {
-    const Face& face = out.mesh.faces[face_of(s)];
+    const Face& face = mesh.faces[face_of(s)];
     out.at_begin[s] *= out.scale[face[corner_of(s)]];
     out.at_end[s] *= out.scale[face[next_corner(corner_of(s))]];
   }

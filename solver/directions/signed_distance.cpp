@@ -152,12 +152,12 @@ Result<SignedDistance> Directions::signed_distance(std::span<const SurfacePath> 
   return directions_out_of_memory(state_->paths.mesh()->face_count());
 }
 
-Result<SignedDistance> signed_distance(const std::shared_ptr<const TriangleMesh>& mesh,
+Result<SignedDistance> signed_distance(const SignedSetup& setup,
                                        std::span<const SurfacePath> curves, SideRule rule,
-                                       const SpreadOptions& options, const Progress& progress) {
+                                       const Progress& progress) {
   std::optional<Error> no_sides;
   if (rule != SideRule::kHeat) {
-    const auto directions = Directions::build(mesh, part_of(progress, 0, 0.1));
+    const auto directions = setup.directions(part_of(progress, 0, 0.1));
     if (!directions) return directions.error();
     auto found = (*directions)->signed_distance(curves, part_of(progress, 0.1, 1));
     if (found || rule == SideRule::kSides || found.error().code == ErrorCode::kCancelled) {
@@ -165,7 +165,7 @@ Result<SignedDistance> signed_distance(const std::shared_ptr<const TriangleMesh>
     }
     no_sides = found.error();
   }
-  const auto heat = VectorHeat::build(mesh, options, part_of(progress, 0, 0.7));
+  const auto heat = setup.heat(part_of(progress, 0, 0.7));
   if (!heat) return heat.error();
   auto found = (*heat)->signed_distance(curves, part_of(progress, 0.7, 1));
   if (!no_sides) return found;
@@ -179,6 +179,15 @@ Result<SignedDistance> signed_distance(const std::shared_ptr<const TriangleMesh>
     return both;
   }
   return found;
+}
+
+Result<SignedDistance> signed_distance(const std::shared_ptr<const TriangleMesh>& mesh,
+                                       std::span<const SurfacePath> curves, SideRule rule,
+                                       const SpreadOptions& options, const Progress& progress) {
+  const SignedSetup setup = {
+      [&](const Progress& part) { return Directions::build(mesh, part); },
+      [&](const Progress& part) { return VectorHeat::build(mesh, options, part); }};
+  return signed_distance(setup, curves, rule, progress);
 }
 
 }  // namespace geotherm

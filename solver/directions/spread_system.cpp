@@ -2,7 +2,10 @@
 #include "solver/directions/spread_system.h"
 
 #include <algorithm>
+#include <numeric>
 #include <utility>
+
+#include "solver/linear/elimination_tree.h"
 
 namespace geotherm {
 namespace {
@@ -44,16 +47,53 @@ class AddedUp final : public SymmetricOperator {
   std::vector<double> diagonal_;
 };
 
+/// Rows 2 i and 2 i + 1 of a pattern's row i.
+SymmetricPattern doubled(const SymmetricPattern& pattern) {
+  SymmetricPattern out;
+  out.neighbor.reserve(4 * pattern.neighbor.size());
+  for (Index row = 0; row < 2 * pattern.size(); ++row) {
+    for (const Index j : pattern.neighbors(row / 2)) {
+      out.neighbor.push_back(2 * j);
+      out.neighbor.push_back(2 * j + 1);
+    }
+    out.start.push_back(static_cast<std::int64_t>(out.neighbor.size()));
+  }
+  return out;
+}
+
+/// The nodes of a tree with two rows for each; rows of a node follow each other.
+NodeOrder doubled(const EliminationTree& tree) {
+  NodeOrder out;
+  out.parent = tree.parent;
+  out.order.resize(2 * tree.node_of_row.size());
+  std::iota(out.order.begin(), out.order.end(), Index{0});
+  out.first.assign(tree.parent.size() + 1, 0);
+  for (const Index node : tree.node_of_row) out.first[node + 1] += 2;
+  std::partial_sum(out.first.begin(), out.first.end(), out.first.begin());
+  return out;
+}
+
 }  // namespace
 
-Result<SpreadSystem> SpreadSystem::build(const Backend& backend, SymmetricPattern pattern,
-                                         std::span<const Vec3> positions, int threads) {
+Result<SpreadSystem> SpreadSystem::build_doubled(const Backend& backend, const Analysis& analysis,
+                                                 const SymmetricPattern& pattern,
+                                                 std::span<const Vec3> positions, int threads) {
   SpreadSystem out;
-  auto analysis = backend.analyze(pattern, positions, threads);
-  if (!analysis) return analysis.error();
-  out.analysis_ = *std::move(analysis);
+  const SymmetricPattern twice = doubled(pattern);
+  if (const EliminationTree* const tree = analysis.tree()) {
+    if (auto followed = analysis.follow(doubled(*tree), twice, threads)) {
+      out.analysis_ = *std::move(followed);
+    }
+  }
+  if (!out.analysis_) {
+    std::vector<Vec3> at;
+    for (const Vec3& position : positions) at.insert(at.end(), 2, position);
+    auto fresh = backend.analyze(twice, at, threads);
+    if (!fresh) return fresh.error();
+    out.analysis_ = *std::move(fresh);
+  }
   out.row_ = inverse_permutation(out.analysis_->order(), threads);
-  out.lower_ = permuted_lower(pattern, out.analysis_->order(), threads);
+  out.lower_ = permuted_lower(twice, out.analysis_->order(), threads);
   out.hash_ = pattern_hash(out.lower_, threads);
   return out;
 }

@@ -19,9 +19,12 @@ class SpreadSystem {
   /// A matrix with the pattern.
   using Entries = std::function<void(const Add& add)>;
 
-  /// `positions`: a point for each row. Errors: those of the backend.
-  static Result<SpreadSystem> build(const Backend& backend, SymmetricPattern pattern,
-                                    std::span<const Vec3> positions, int threads);
+  /// Two rows, 2 i and 2 i + 1, for each row i of `pattern`, which is numbered as `analysis` of
+  /// `backend` eliminates it: the order is kept where the backend can. `positions`: a point for
+  /// each i. Errors: those of the backend.
+  static Result<SpreadSystem> build_doubled(const Backend& backend, const Analysis& analysis,
+                                            const SymmetricPattern& pattern,
+                                            std::span<const Vec3> positions, int threads);
 
   /// Errors: those of the backend.
   Result<std::shared_ptr<const Factorization>> factorize(const Entries& entries, int threads) const;

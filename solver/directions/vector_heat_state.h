@@ -9,71 +9,84 @@
 
 #include "solver/directions/directions_state.h"
 #include "solver/directions/flipped_directions.h"
+#include "solver/directions/scaled_heat.h"
 #include "solver/directions/spread_system.h"
-#include "solver/geometry/domain_operator.h"
+#include "solver/heat/diffuse.h"
+#include "solver/heat/linear_system.h"
+#include "solver/heat/surface.h"
 
 namespace geotherm {
 
-/// -w r of an edge, r the rotation from its end to its begin.
-struct Link {
-  Index from, to;
-  double weight, cosine, sine;
-};
+/// Vectors at rows, over the heat there.
+using RowVectors = std::vector<std::complex<double>>;
 
-/// The factors of the scalar system for one time.
-struct Factors {
+/// The heat of the rows that something spreads from.
+struct Warmth {
   double t = 0;  ///< in squares of the mean edge
-  std::shared_ptr<const Factorization> scalar;
+  std::shared_ptr<const LinearSystem> system;
+  HeatField heat;
+  std::vector<char> reached;  ///< a flag for each row that is joined to one of those
+  bool scaled = false;        ///< the heat spans more than iterations resolve: solve by ScaledHeat
+
+  /// That at row j over that at row i.
+  double ratio(Index j, Index i) const;
 };
 
-/// The system of vectors: two rows for each row of the scalar one.
-struct VectorSystem {
-  SpreadSystem system;
-  double t = 0;
-  std::shared_ptr<const Factorization> factors;  ///< for that time
+/// What vectors need beyond values.
+struct VectorParts {
+  std::unique_ptr<const Directions::State> directions;
+  FlippedDirections flipped;
+  std::vector<TangentFrame> frames;
+  std::vector<Link> links;  ///< of sides: an inner edge stands twice
+  std::optional<Error> broken;
 };
 
 struct VectorHeat::State {
-  std::shared_ptr<const TriangleMesh> mesh;
   int threads = 1;
-  double unit = 1;
-  std::vector<TangentFrame> frames;
-  std::optional<Error> no_vectors;
-  std::vector<Index> row_of_vertex;  ///< V, kNoIndex where in no face
-  std::vector<double> mass;          ///< n
-  std::vector<Link> links;           ///< of faces: an inner edge stands twice
-  Components parts;                  ///< of the rows
-  std::unique_ptr<const Directions::State> directions;
-  FlippedDirections flipped;
-  const Backend* backend = nullptr;
-  SymmetricPattern pattern;  ///< of the scalar system
-  std::vector<Vec3> places;  ///< of its rows
-  SpreadSystem scalar;
-  Factors factors;
+  double t = 1;  ///< as asked for, in squares of the mean edge
+  std::shared_ptr<const Surface> surface;
+  std::shared_ptr<const LinearSystem> scalar;  ///< for that time
+  mutable BlockPool pool;
 
-  Index size() const { return static_cast<Index>(mass.size()); }
+  Index size() const { return surface->size(); }
+  double unit() const { return surface->unit; }
+  bool iterative() const { return surface->backend->iterative(); }
+  const TriangleMesh& mesh() const { return *surface->mesh; }
+  /// kNoIndex where the vertex is in no face.
+  Index row_of(Index vertex) const { return surface->row_of_vertex[mesh().standing_for(vertex)]; }
 
-  void add_links();
-  Result<Factors> factorize(double t) const;
-  /// Made by the first call that needs vectors, and kept at the time that was asked for first.
-  Result<VectorSystem> vectors(double t, const Progress& progress) const;
+  Result<std::shared_ptr<const LinearSystem>> factorize(double time) const;
   Result<std::vector<Index>> rows_of(std::span<const Index> vertices) const;
-  std::vector<char> reached(std::span<const Index> rows) const;
 
-  /// Finds a time with which heat from the rows reaches all of their parts, and its heat.
-  Result<Factors> warm(std::span<const Index> rows, std::span<const char> in_reach,
-                       std::vector<double>& heat, std::vector<Warning>& warnings,
-                       const Progress& progress) const;
-  Result<std::vector<double>> spread(const Factors& at, std::span<const Index> rows,
+  /// Heat of 1 at each of the rows, everywhere in their parts. A time with which that is so within
+  /// the range of doubles where vectors need it: by a factor.
+  Result<Warmth> warm(std::span<const Index> rows, bool for_vectors, std::vector<Warning>& warnings,
+                      const Progress& progress) const;
+  /// One value for each of the rows at all rows, as the nearest has it.
+  Result<std::vector<double>> spread(const Warmth& warmth, std::span<const Index> rows,
                                      std::span<const double> values,
                                      const Progress& progress) const;
+  /// The same of vectors at rows, which may stand several times. Errors: VectorParts::broken.
+  Result<RowVectors> carry(const Warmth& warmth, std::span<const Index> rows,
+                           std::span<const std::complex<double>> vectors,
+                           const Progress& progress) const;
+
+  /// Made when they are first asked for. Errors: kCancelled, kOutOfMemory.
+  Result<const VectorParts*> vector_parts(const Progress& progress) const;
 
  private:
-  Result<std::shared_ptr<const Factorization>> factorize_vectors(const SpreadSystem& system,
-                                                                 double t) const;
+  struct VectorFactor {
+    double t = 0;
+    std::shared_ptr<const Factorization> factor;
+  };
+  std::vector<Link> find_links(const FlippedDirections* flipped) const;
+  Result<VectorFactor> vector_factor(double time, const VectorParts& parts,
+                                     const Progress& progress) const;
 
-  mutable std::mutex vector_lock_;
-  mutable std::optional<VectorSystem> vector_;
+  mutable std::mutex lock_;
+  mutable std::unique_ptr<const VectorParts> parts_;
+  mutable std::optional<SpreadSystem> doubled_;  ///< vectors by two rows each
+  mutable std::optional<VectorFactor> factor_;   ///< of the time that was asked for first
 };
 
 }  // namespace geotherm

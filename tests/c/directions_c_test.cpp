@@ -97,6 +97,30 @@ TEST_F(CDirections, SignedDistanceHasTheSideOfALoop) {
   EXPECT_STREQ(rule, "sides");
 }
 
+/// The second call of a model finds all that it needs set up; only queries are left.
+TEST_F(CDirections, SignedDistanceIsSetUpOnce) {
+  const geotherm_source points[] = {{GEOTHERM_VERTEX, 0, {}, 0}, {GEOTHERM_VERTEX, 2, {}, 0}};
+  const std::int64_t starts[] = {0, 2};
+  const geotherm_sources line = {points, 2, starts, 1, nullptr};
+  for (const char* rule : {"sides", "heat"}) {
+    for (const bool first : {true, false}) {
+      int stages = 0;
+      const geotherm_watch watch = {[](void* data, const char* stage, double) {
+                                      const std::string name = stage;
+                                      *static_cast<int*>(data) +=
+                                          name == "operators" || name == "analyze";
+                                      return 0;
+                                    },
+                                    &stages, 0};
+      ASSERT_EQ(geotherm_signed_distance(model, nullptr, &line, 0, rule, &watch, &answer),
+                GEOTHERM_OK);
+      geotherm_free(answer);
+      if (first) EXPECT_GT(stages, 0) << rule;
+      if (!first) EXPECT_EQ(stages, 0) << rule;
+    }
+  }
+}
+
 TEST_F(CDirections, MeansAndMediansOfTheCornersAreTheMiddle) {
   geotherm_source corners[4];
   for (int v = 0; v < 4; ++v) corners[v] = {GEOTHERM_VERTEX, v, {}, 0};

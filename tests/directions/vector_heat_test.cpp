@@ -8,11 +8,13 @@
 #include <complex>
 #include <map>
 #include <numbers>
+#include <span>
 #include <utility>
 #include <vector>
 
 #include "geotherm/backend.h"
 #include "geotherm/directions.h"
+#include "geotherm/heat_method.h"
 #include "tests/support/broken_mesh.h"
 #include "tests/support/shapes.h"
 
@@ -31,7 +33,7 @@ std::shared_ptr<const VectorHeat> vector_heat(const MeshPtr& mesh,
 /// positions. Source: Sharp, Soliman, Crane 2019, section 5.
 class DenseVectorHeat {
  public:
-  DenseVectorHeat(const TriangleMesh& mesh, const std::vector<TangentFrame>& frames)
+  DenseVectorHeat(const TriangleMesh& mesh, std::span<const TangentFrame> frames)
       : mesh_(mesh), frames_(frames), size_(mesh.vertex_count()) {
     sum_angles();
     double edges = 0, length = 0;
@@ -118,7 +120,7 @@ class DenseVectorHeat {
   }
 
   const TriangleMesh& mesh_;
-  const std::vector<TangentFrame>& frames_;
+  std::span<const TangentFrame> frames_;
   Index size_;
   std::map<std::pair<Index, Index>, Index> third_;  // of the face with the side from i to j
   std::map<std::pair<Index, Index>, double> angle_of_;
@@ -140,12 +142,9 @@ constexpr double kAgree = 1e-8;
 TEST_P(VectorHeatAgainstDense, MatricesGivesTheSameVectors) {
   const MeshPtr mesh = finish(GetParam().draft());
   for (const std::string& backend : backend_names()) {
-    const auto built = VectorHeat::build(mesh, {.backend = backend});
-    if (!built) {
-      EXPECT_EQ(built.error().code, ErrorCode::kNotAvailable) << built.error().message;
-      continue;
-    }
-    const DenseVectorHeat dense(*mesh, (*built)->frames());
+    const auto built = VectorHeat::build(mesh, {backend, 1, 0});
+    ASSERT_TRUE(built) << built.error().message;
+    const DenseVectorHeat dense(*mesh, *(*built)->frames());
     const Index last = mesh->vertex_count() - 1;
     const std::vector<TangentVector> vectors = {{3, 1, 0}, {last / 2, -0.5, 2}, {last, 0.1, -0.7}};
     const auto found = (*built)->transport(vectors);
@@ -155,7 +154,7 @@ TEST_P(VectorHeatAgainstDense, MatricesGivesTheSameVectors) {
       const auto [x, y] = found->components[v];
       EXPECT_NEAR(std::abs(std::complex<double>(x, y) - want[v]), 0, kAgree * std::abs(want[v]))
           << backend << ", vertex " << v;
-      const TangentFrame& frame = (*built)->frames()[v];
+      const TangentFrame& frame = (*(*built)->frames())[v];
       EXPECT_NEAR((found->vectors[v] - x * frame.e1 - y * frame.e2).norm(), 0, kAgree);
     }
   }
@@ -163,15 +162,48 @@ TEST_P(VectorHeatAgainstDense, MatricesGivesTheSameVectors) {
 
 TEST_P(VectorHeatAgainstDense, MatricesGivesTheSameValues) {
   const MeshPtr mesh = finish(GetParam().draft());
-  const auto heat = vector_heat(mesh);
-  const DenseVectorHeat dense(*mesh, heat->frames());
+  const DenseVectorHeat dense(*mesh, *vector_heat(mesh)->frames());
   const Index last = mesh->vertex_count() - 1;
   const std::vector<Index> vertices = {3, last / 2, last};
   const std::vector<double> values = {-1, 5, 2.5};
-  const auto found = heat->extend(vertices, values);
-  ASSERT_TRUE(found) << found.error().message;
   const Eigen::VectorXd want = dense.extend(vertices, values);
-  for (Index v = 0; v <= last; ++v) EXPECT_NEAR(found->values[v], want[v], 5 * kAgree) << v;
+  for (const std::string& backend : backend_names()) {
+    const auto found = vector_heat(mesh, {backend, 1, 0})->extend(vertices, values);
+    ASSERT_TRUE(found) << found.error().message;
+    for (Index v = 0; v <= last; ++v) {
+      EXPECT_NEAR(found->values[v], want[v], 5 * kAgree) << backend << ", vertex " << v;
+    }
+  }
+}
+
+/// Heat far from the sources is far below what conjugate gradients end by.
+TEST(Transport, ByIterationsIsThatByFactorsEverywhere) {
+  const MeshPtr mesh = finish(prism(60, 40, 0.5));
+  const std::vector<TangentVector> vectors = {{3, 1, 0}, {700, -0.5, 2}};
+  for (const double factor : {1.0, 30.0, 3000.0}) {
+    const auto direct = vector_heat(mesh, {{}, factor, 0})->transport(vectors);
+    const auto iterated = vector_heat(mesh, {"cg", factor, 0})->transport(vectors);
+    ASSERT_TRUE(direct && iterated);
+    for (Index v = 0; v < mesh->vertex_count(); ++v) {
+      EXPECT_NEAR((direct->vectors[v] - iterated->vectors[v]).norm(), 0, kAgree) << v;
+    }
+  }
+}
+
+/// What a heat method has is used, and gives the same bits.
+TEST(Transport, BesideAHeatMethodIsTheSame) {
+  for (const Draft& draft : {sphere(3), jittered_plane(14, 0.4, 8)}) {
+    const MeshPtr mesh = finish(draft);
+    const auto method = HeatMethod::build(mesh);
+    ASSERT_TRUE(method);
+    const auto beside = VectorHeat::build(mesh, {}, {}, &*method);
+    ASSERT_TRUE(beside);
+    const std::vector<TangentVector> vectors = {{3, 1, 0}, {70, -0.5, 2}};
+    const auto alone = vector_heat(mesh)->transport(vectors),
+               shared = (*beside)->transport(vectors);
+    ASSERT_TRUE(alone && shared);
+    EXPECT_EQ(alone->components, shared->components);
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(Shapes, VectorHeatAgainstDense,
@@ -191,7 +223,7 @@ double parallel_error(const Draft& draft) {
   const Index source = mesh->vertex_count() / 2;
   const auto found = heat->transport(std::vector<TangentVector>{{source, 0.6, -0.8}});
   EXPECT_TRUE(found) << found.error().message;
-  const TangentFrame& frame = heat->frames()[source];
+  const TangentFrame& frame = (*heat->frames())[source];
   const Vec3 want = 0.6 * frame.e1 - 0.8 * frame.e2;
   double most = 0;
   for (const Vec3& vector : found->vectors) most = std::max(most, (vector - want).norm());
@@ -207,13 +239,23 @@ TEST(Transport, KeepsVectorsParallelOnSlivers) {
 /// Heat falls below the least double after some seven hundred edges.
 TEST(Transport, ReachesTheEndOfAStripOfThreeThousandEdges) {
   const MeshPtr mesh = finish(plane_grid(3000, 1, 3000, 1));
-  const auto heat = vector_heat(mesh);
-  const auto found = heat->transport(std::vector<TangentVector>{{0, 1, 0}});
-  ASSERT_TRUE(found) << found.error().message;
-  EXPECT_FALSE(found->warnings.empty());
-  for (const Vec3& vector : found->vectors) {
-    EXPECT_NEAR((vector - heat->frames()[0].e1).norm(), 0, kAgree);
+  for (const char* backend : {"", "cg"}) {
+    const auto heat = vector_heat(mesh, {backend, 1, 0});
+    const auto found = heat->transport(std::vector<TangentVector>{{0, 1, 0}});
+    ASSERT_TRUE(found) << found.error().message;
+    EXPECT_EQ(found->warnings.empty(), backend[0] != 0);  // iterations go on in any range
+    for (const Vec3& vector : found->vectors) {
+      EXPECT_NEAR((vector - (*heat->frames())[0].e1).norm(), 0, kAgree);
+    }
   }
+}
+TEST(Extend, ReachesTheEndOfAStripAtTheTimeAskedFor) {
+  const auto heat = vector_heat(finish(plane_grid(3000, 1, 3000, 1)));
+  const auto found = heat->extend(std::vector<Index>{0, 6001}, std::vector<double>{-7, 3});
+  ASSERT_TRUE(found) << found.error().message;
+  EXPECT_TRUE(found->warnings.empty());
+  EXPECT_NEAR(found->values[1000], -7, kAgree);
+  EXPECT_NEAR(found->values[5000], 3, kAgree);
 }
 
 /// Along meridians from the pole, to the order of the mesh: the angle between them stays.
@@ -222,7 +264,7 @@ double error_on_sphere(int level) {
   const auto heat = vector_heat(mesh);
   const Index source = 4;
   const Vec3 pole = mesh->positions()[source];
-  const TangentFrame& frame = heat->frames()[source];
+  const TangentFrame& frame = (*heat->frames())[source];
   const auto found = heat->transport(std::vector<TangentVector>{{source, 1, 0}});
   EXPECT_TRUE(found);
   double sum = 0;

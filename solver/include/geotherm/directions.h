@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <memory>
 #include <span>
 #include <string>
@@ -17,6 +18,8 @@
 // Directions on a triangle mesh: tangent planes, logarithmic maps, straightest lines, vectors and
 // values carried over the surface, on which side of a curve it is, and centres of points.
 namespace geotherm {
+
+class HeatMethod;
 
 /// The axes in which directions at a point are said. A direction is an angle in radians from e1
 /// towards e2.
@@ -44,6 +47,9 @@ struct LogMap {
   std::vector<double> distances;   ///< V, model units; kUnreached where no path leads
   std::vector<double> directions;  ///< V, radians, -pi to pi, on a border 0 to its angle, as the
                                    ///< path leaves the point; NaN where there is no path
+  /// One sentence: by waves, how many directions hang on which of two paths is the shorter, where
+  /// that is more than one in a hundred.
+  std::vector<Warning> warnings;
 };
 
 /// How a log map is carried along, and how far.
@@ -143,7 +149,7 @@ struct TangentVector {
 
 /// How values and vectors are spread.
 struct SpreadOptions {
-  std::string backend;     ///< one that factorises, of backend_names(); empty: the first of them
+  std::string backend;     ///< of backend_names(); empty: the first of them
   double time_factor = 1;  ///< diffusion time in squares of the mean edge, > 0
   int threads = 0;         ///< 0: all cores
 
@@ -165,21 +171,27 @@ struct Spread {
 /// once.
 class VectorHeat {
  public:
-  /// Errors: kBadInput (no face with area, a time factor that is not above 0), kNotAvailable (no
-  /// such backend, or one that holds no factor), those of the backend. Cost: a factorisation of V
-  /// rows; the first call about vectors or signs adds one of 2 V.
+  /// `beside`: a method on the same mesh, whose triangulation, matrices and analysis are shared
+  /// where it has the same backend and a triangulation that is Delaunay, without a cover and
+  /// inserted vertices; the answers are those without it. Errors: kBadInput (no face with area, a
+  /// time factor that is not above 0), kNotAvailable (no such backend), those of the backend. Cost:
+  /// a factorisation of V rows; the first call about vectors or signs adds one of 2 V in the same
+  /// elimination order. Backends that iterate factorise nothing.
   static Result<std::shared_ptr<const VectorHeat>> build(std::shared_ptr<const TriangleMesh> mesh,
                                                          const SpreadOptions& options = {},
-                                                         const Progress& progress = {});
+                                                         const Progress& progress = {},
+                                                         const HeatMethod* beside = nullptr);
   ~VectorHeat();
 
-  /// The frames of the vertices: V; those in no face have the axes of space.
-  const std::vector<TangentFrame>& frames() const;
+  /// The frames of the vertices: V, as long as this lives; those in no face have the axes of space.
+  /// Made when they are first needed. Errors: kCancelled, kOutOfMemory.
+  Result<std::span<const TangentFrame>> frames(const Progress& progress = {}) const;
 
   /// Vectors at all vertices. Their lengths are extended like values. Where the mesh is so wide
-  /// that heat falls below the smallest double, the time is made longer for this call and a warning
-  /// says so. Errors: kBadInput (no vector, a vertex out of range or in no face, numbers that are
-  /// not finite; a mesh that is no oriented manifold, with the vertex), those of the backend.
+  /// that heat falls below the smallest double, backends that factorise make the time longer for
+  /// this call, and a warning says so. Errors: kBadInput (no vector, a vertex out of range or in no
+  /// face, numbers that are not finite; a mesh that is no oriented manifold, with the vertex),
+  /// those of the backend.
   Result<Spread> transport(std::span<const TangentVector> vectors,
                            const Progress& progress = {}) const;
 
@@ -200,8 +212,19 @@ class VectorHeat {
   std::unique_ptr<const State> state_;
 };
 
+/// Where signed_distance() finds what is set up for it; each is asked for when it is needed.
+struct SignedSetup {
+  std::function<Result<std::shared_ptr<const Directions>>(const Progress&)> directions;
+  std::function<Result<std::shared_ptr<const VectorHeat>>(const Progress&)> heat;
+};
+
 /// Signed distance by a rule: that of Directions, or of VectorHeat. With kAuto a warning says that
 /// curves do not separate the surface. Errors: those of both.
+Result<SignedDistance> signed_distance(const SignedSetup& setup,
+                                       std::span<const SurfacePath> curves,
+                                       SideRule rule = SideRule::kAuto,
+                                       const Progress& progress = {});
+/// The same, with all that it needs set up for this call.
 Result<SignedDistance> signed_distance(const std::shared_ptr<const TriangleMesh>& mesh,
                                        std::span<const SurfacePath> curves,
                                        SideRule rule = SideRule::kAuto,
