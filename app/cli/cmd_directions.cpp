@@ -159,8 +159,7 @@ void add_log_map_options(CLI::App& command, LogMapArguments& arguments) {
   command.footer(
       "Paths are exact on the faces, and so are directions; behind a vertex that bends a path they "
       "are those of its first piece. --method wavefront and wavefront-fine are near exact, and "
-      "fast "
-      "on large models. A picture shows squares of the map.\n"
+      "fast on large models. A picture shows squares of the map.\n"
       "Examples:\n"
       "  geotherm logmap gargoyle -s 17 --method wavefront --max-distance 0.5 -o map.svg\n"
       "  geotherm logmap bunny -s 17 -o map.npy --json -\n"
@@ -180,7 +179,7 @@ Result<CommandOutput> run_log_map(const LogMapArguments& arguments, const Progre
   protect_inputs(arguments.model, {}, outputs);
   const auto expected = expect_columns(arguments.outputs, arguments.json, true, outputs);
   if (!expected) return expected.error();
-  const auto work = begin(arguments.model, asked->reading, *source, "log maps are", progress);
+  auto work = begin(arguments.model, asked->reading, *source, "log maps are", progress);
   if (!work) return work.error();
   const TriangleMesh& mesh = *work->model.mesh;
   auto targets = targets_of(arguments.targets, work->model);
@@ -190,6 +189,7 @@ Result<CommandOutput> run_log_map(const LogMapArguments& arguments, const Progre
   const auto map = work->directions->log_map(work->point, options, part_of(progress, 0.2, 1));
   if (!map) return about_model(work->model.name, map.error());
   const double map_ms = watch.milliseconds();
+  work->warnings.insert(work->warnings.end(), map->warnings.begin(), map->warnings.end());
   const auto reached =
       std::ranges::count_if(map->distances, [](double d) { return std::isfinite(d); });
 

@@ -19,6 +19,8 @@ using Turn = StartDirections::Turn;
 
 /// Beside waves windows go as far, in mean edges.
 constexpr double kNear = 40;
+/// The share of vertices in doubt from which on a map by waves says so.
+constexpr double kMaxDoubt = 0.01;
 
 /// Directions of the lines from a vertex, in the frames of the sides opposite to it.
 std::vector<Turn> turns_at(Index v, const WindowMesh& windows, const TangentFans& fans) {
@@ -129,6 +131,17 @@ WaveStart wave_start(const Directions::State& state, const SourceSeeds& seeds, c
   return out;
 }
 
+Warning in_doubt(Index vertices, std::int64_t of, MethodKind method) {
+  Hint hint = {"use ", SettingHint{"method", {"exact"}}};
+  if (method == MethodKind::kWavefront) {
+    hint = {"use ", SettingHint{"method", {"exact", "wavefront-fine"}}};
+  }
+  return {"the directions of " + std::to_string(vertices) + " of " + std::to_string(of) +
+              " vertices hang on which of two paths is the shorter, and waves cannot tell lengths "
+              "that differ by less than a thousandth",
+          std::move(hint)};
+}
+
 Result<LogMap> by_waves(const Directions::State& state, const SourceSeeds& seeds,
                         const Start& start, const LogMapOptions& options,
                         const Progress& progress) {
@@ -166,7 +179,12 @@ Result<LogMap> by_waves(const Directions::State& state, const SourceSeeds& seeds
     if (is_near(v)) begin.known[v] = windows.directions()[v];
   }
   LogMap map;
-  map.directions = wave_directions(*state.surface, *state.tables, front, samples, begin);
+  WaveDirections found = wave_directions(*state.surface, *state.tables, front, samples, begin);
+  const auto known = std::ranges::count_if(found.of, [](double x) { return !std::isnan(x); });
+  map.directions = std::move(found.of);
+  if (static_cast<double>(found.in_doubt) > kMaxDoubt * static_cast<double>(known)) {
+    map.warnings.push_back(in_doubt(found.in_doubt, known, options.method));
+  }
   map.distances.assign(map.directions.size(), kUnreached);
   for (std::size_t rank = 0; rank < state.tables->vertex_of_rank.size(); ++rank) {
     const auto v = static_cast<std::size_t>(state.tables->vertex_of_rank[rank]);

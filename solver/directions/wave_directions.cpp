@@ -19,6 +19,9 @@ using direction_waves::fit_wave;
 using Point2 = Eigen::Vector2d;
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+/// Where a second way is longer by less than this share of it, and leaves the source in a direction
+/// that differs by so many radians, waves cannot tell which is the shortest.
+constexpr double kClose = 1e-3, kOtherWay = 0.2;
 /// Neighbours on an edge whose directions differ by more than so many times what their distance
 /// explains, and so many radians, are of paths that pass something on two sides.
 constexpr double kTorn = 3, kTornAngle = 0.05;
@@ -36,9 +39,10 @@ class DirectionPass {
         count_(static_cast<std::size_t>(tables.vertex_count())),
         direction_(count_ + static_cast<std::size_t>(samples) *
                                 static_cast<std::size_t>(tables.edge_count()),
-                   kNone) {}
+                   kNone),
+        in_doubt_(direction_.size(), 0) {}
 
-  std::vector<double> run() {
+  WaveDirections run() {
     for (std::size_t rank = 0; rank < count_; ++rank) {
       direction_[rank] = start_.known[static_cast<std::size_t>(tables_.vertex_of_rank[rank])];
     }
@@ -58,18 +62,21 @@ class DirectionPass {
         set_sample(node);
       }
     }
-    std::vector<double> out(tables_.rank_of_vertex.size(), kNone);
-    for (std::size_t v = 0; v < out.size(); ++v) {
+    WaveDirections out{std::vector<double>(tables_.rank_of_vertex.size(), kNone), 0};
+    for (std::size_t v = 0; v < out.of.size(); ++v) {
       const Index rank = tables_.rank_of_vertex[v];
-      if (rank != kNoIndex) out[v] = direction_[static_cast<std::size_t>(rank)];
+      if (rank == kNoIndex) continue;
+      out.of[v] = direction_[static_cast<std::size_t>(rank)];
+      out.in_doubt += in_doubt_[static_cast<std::size_t>(rank)];
     }
     return out;
   }
 
  private:
-  /// The best way to a node so far.
+  /// A way to a node, and the node beside which it comes in.
   struct Way {
     double value = kUnreached, direction = kNone;
+    std::size_t from = 0;
   };
 
   double value(std::size_t node) const {
@@ -114,12 +121,37 @@ class DirectionPass {
   }
 
   void set_vertex(std::size_t node) {
-    Way best;
     for (const SideCode code : tables_.corners_at(static_cast<Index>(node))) {
       const int opposite = next_corner(corner_of_code(code));
-      cross(tables_.faces[face_of_code(code)], opposite, 1, 0, best);
+      cross(tables_.faces[face_of_code(code)], opposite, 1, 0);
     }
-    direction_[node] = best.direction;
+    settle(node);
+  }
+
+  /// Takes the best of the ways. In doubt is what has another that is as good, and what lies behind
+  /// such a node.
+  void settle(std::size_t node) {
+    const auto best = std::ranges::min_element(ways_, {}, &Way::value);
+    if (best != ways_.end()) {
+      const auto is_other = [&](const Way& way) {
+        return way.value < (1 + kClose) * best->value &&
+               std::abs(difference(best->direction, way.direction)) > kOtherWay;
+      };
+      direction_[node] = best->direction;
+      in_doubt_[node] = in_doubt_[best->from] != 0 || std::ranges::any_of(ways_, is_other) ? 1 : 0;
+    }
+    ways_.clear();
+    shortest_ = kUnreached;
+  }
+
+  /// Whether a way of this length can be the best, or as good.
+  bool counts(double value) const { return value < (1 + kClose) * shortest_; }
+  void add(const Way& way) {
+    ways_.push_back(way);
+    shortest_ = std::min(shortest_, way.value);
+  }
+  double difference(double from, double to) const {
+    return start_.period > 0 ? std::remainder(to - from, start_.period) : to - from;
   }
 
   void set_sample(std::size_t node) {
@@ -127,15 +159,14 @@ class DirectionPass {
     const auto edge = number / static_cast<std::size_t>(samples_);
     const int i = static_cast<int>(number % static_cast<std::size_t>(samples_));
     const double share = (i + 1.0) / (samples_ + 1);
-    Way best;
     const auto through = [&](SideCode code) {
       const WaveFace& face = tables_.faces[face_of_code(code)];
       const int k = corner_of_code(code);
       const bool reversed = (face.reversed >> k & 1U) != 0;
       const double from_first = reversed ? 1 - share : share;
       // Side k + 1 ends at the corner opposite of side k, side k + 2 at its first.
-      cross(face, next_corner(k), 1 - from_first, -1, best);
-      cross(face, previous_corner(k), from_first, 1, best);
+      cross(face, next_corner(k), 1 - from_first, -1);
+      cross(face, previous_corner(k), from_first, 1);
     };
     const auto& sides = tables_.sides[edge];
     through(sides[0]);
@@ -145,12 +176,12 @@ class DirectionPass {
       const SideCode* list = &tables_.more[static_cast<std::size_t>(-2 - sides[1])];
       for (SideCode j = 1; j <= list[0]; ++j) through(list[j]);
     }
-    direction_[node] = best.direction;
+    settle(node);
   }
 
   /// The ways through side k of a face to a target: `rise` of the way from the side to the corner
   /// opposite, starting at the side's first end (`end` -1), its last (1), or anywhere (rise 1).
-  void cross(const WaveFace& face, int k, double rise, int end, Way& best) const {
+  void cross(const WaveFace& face, int k, double rise, int end) {
     const double length = face.length[k], half = length / 2;
     const double to_b = face.length[next_corner(k)], to_a = face.length[previous_corner(k)];
     const double cx = (to_a - to_b) * (to_a + to_b) / (2 * length);
@@ -165,21 +196,20 @@ class DirectionPass {
     };
     for (std::size_t i = 0; i <= last; i += 2) {
       const double bent = values[i] + std::hypot(x - place(i), y);
-      if (bent < best.value && !std::isnan(direction_[nodes[i]])) {
-        best = {bent, direction_[nodes[i]]};
+      if (counts(bent) && !std::isnan(direction_[nodes[i]])) {
+        add({bent, direction_[nodes[i]], nodes[i]});
       }
     }
     const double step = length / static_cast<double>(last);
     for (std::size_t i = 0; i + 2 <= last; i += 2) {
       const Fit fit = fit_wave(place(i + 1), step, values[i], values[i + 1], values[i + 2]);
       if (fit.kind != Fit::Kind::kWave) continue;
-      along(fit, x - fit.centre, y, {nodes[i], nodes[i + 1], nodes[i + 2]}, best);
+      along(fit, x - fit.centre, y, {nodes[i], nodes[i + 1], nodes[i + 2]});
     }
   }
 
   /// The way of a fitted wave to (x, y), from the middle of the three nodes that it was fitted to.
-  void along(const Fit& fit, double x, double y, const std::array<std::size_t, 3>& nodes,
-             Way& best) const {
+  void along(const Fit& fit, double x, double y, const std::array<std::size_t, 3>& nodes) {
     const double q = fit.k * (x * x + y * y) + 2 * (fit.uy * y - fit.ux * x);
     const double square = 1 + fit.k * q;
     const double gx = fit.k * x - fit.ux, gy = fit.k * y + fit.uy;
@@ -187,9 +217,10 @@ class DirectionPass {
     const double arrives = fit.middle + q / (1 + std::sqrt(square));
     const double at = x - y * gx / gy;
     if (!(std::abs(at) <= fit.half * (1 + direction_waves::kRayTolerance))) return;
-    if (!(arrives < best.value)) return;
+    if (!counts(arrives)) return;
     const double found = between(fit, at, nodes);
-    if (!std::isnan(found)) best = {arrives, found};
+    const std::size_t nearest = at < -fit.half / 2 ? 0 : at < fit.half / 2 ? 1 : 2;
+    if (!std::isnan(found)) add({arrives, found, nodes[nearest]});
   }
 
   /// The direction of the line through the edge at `at`, from those of the nodes beside it.
@@ -202,15 +233,14 @@ class DirectionPass {
     const bool nearer_a = at - from < to - at;
     if (std::isnan(a) || std::isnan(b))
       return std::isnan(a) ? b + sign * turn_b : a + sign * turn_a;
-    double difference = b - a;
-    if (start_.period > 0) difference = std::remainder(difference, start_.period);
+    const double apart = difference(a, b);
     const double whole = turn_a - turn_b;
     const double explained = std::abs(whole) + fit.half / std::max(fit.middle, fit.half);
-    if (std::abs(difference) > kTorn * explained + kTornAngle) {
+    if (std::abs(apart) > kTorn * explained + kTornAngle) {
       return nearer_a ? a + sign * turn_a : b + sign * turn_b;
     }
     const double share = whole != 0 ? turn_a / whole : (at - from) / (to - from);
-    return a + std::clamp(share, 0.0, 1.0) * difference;
+    return a + std::clamp(share, 0.0, 1.0) * apart;
   }
 
   /// How far the line through `to` is turned against that through `from`, seen from where the wave
@@ -228,13 +258,16 @@ class DirectionPass {
   const WaveStart& start_;
   std::size_t count_;
   std::vector<double> direction_;
+  std::vector<char> in_doubt_;
+  std::vector<Way> ways_;  ///< to the node that is looked at
+  double shortest_ = kUnreached;
   bool mirrored_ = false;
 };
 
 }  // namespace
 
-std::vector<double> wave_directions(const WaveSurface& surface, const WaveTables& tables,
-                                    const WaveFront& front, int samples, const WaveStart& start) {
+WaveDirections wave_directions(const WaveSurface& surface, const WaveTables& tables,
+                               const WaveFront& front, int samples, const WaveStart& start) {
   return DirectionPass(surface, tables, front, samples, start).run();
 }
 

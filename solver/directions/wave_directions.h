@@ -23,11 +23,18 @@ struct WaveStart {
   std::vector<double> known;  ///< V: directions that are known already, no number elsewhere
 };
 
-/// The directions in which the paths of a wave that has run leave its source, one point: V, no
-/// number where there is no path. Behind each edge the line to a target is that of the wave fitted
-/// there, and its direction lies between those of the edge's ends and samples as the line does. By
-/// ascending distance. Cost: that of the wave, and a sort.
-std::vector<double> wave_directions(const WaveSurface& surface, const WaveTables& tables,
-                                    const WaveFront& front, int samples, const WaveStart& start);
+/// Directions of vertices, and how many of these hang on which of two ways is the shorter, which a
+/// wave cannot tell: their lengths differ by less than a thousandth.
+struct WaveDirections {
+  std::vector<double> of;  ///< V, no number where there is no path
+  Index in_doubt = 0;
+};
+
+/// The directions in which the paths of a wave that has run leave its source, one point. Behind
+/// each edge the line to a target is that of the wave fitted there, and its direction lies between
+/// those of the edge's ends and samples as the line does. By ascending distance. Cost: that of the
+/// wave, and a sort.
+WaveDirections wave_directions(const WaveSurface& surface, const WaveTables& tables,
+                               const WaveFront& front, int samples, const WaveStart& start);
 
 }  // namespace geotherm

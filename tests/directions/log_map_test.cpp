@@ -231,6 +231,30 @@ TEST(LogMap, ByWavesOfASphereIsAsNear) {
   }
 }
 
+/// Behind hills two paths of almost one length leave the point in directions that differ by much,
+/// and valleys spread what is behind them.
+TEST(LogMap, ByWavesSaysWhereItHangsOnWhichPathIsTheShorter) {
+  const Draft flat = plane_grid(120, 120, 1, 1);
+  Draft hilly = flat;
+  for (Vec3& p : hilly.positions) {
+    p.z() = 0.05 * std::sin(12 * kPi * p.x() + 1) * std::sin(12 * kPi * p.y() + 2);
+  }
+  const MeshPtr hills = finish(hilly), plane = finish(flat);
+  const Index source = grid_vertex(120, 10, 60);
+  const LogMapOptions waves{MethodKind::kWavefront, kUnreached, {}};
+  const auto warnings = [&](const MeshPtr& mesh, const LogMapOptions& options) {
+    const auto map = (*Directions::build(mesh))->log_map(SurfacePoint::at_vertex(source), options);
+    EXPECT_TRUE(map);
+    return map->warnings;
+  };
+  const auto found = warnings(hills, waves);
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_NE(found[0].message.find("directions of "), std::string::npos);
+  EXPECT_FALSE(settings_of(found[0].hint).empty());
+  EXPECT_TRUE(warnings(hills, {}).empty());
+  EXPECT_TRUE(warnings(plane, waves).empty());
+}
+
 TEST(LogMap, EndsAtItsReach) {
   const MeshPtr mesh = finish(sphere(4));
   const SurfacePoint source = SurfacePoint::at_vertex(20);

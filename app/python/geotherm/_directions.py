@@ -103,7 +103,7 @@ def log_map(
             number_in(max_distance, "max_distance"),
             watch.pointer,
         )
-    return LogMap(handle)
+    return LogMap(_warned(handle))
 
 
 def trace(
