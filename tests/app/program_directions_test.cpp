@@ -246,7 +246,6 @@ TEST_F(Program, DirectionsThatCannotBeAreOneLine) {
   expect_refused({"signed", "strip.obj", "--through", "2", "--through", "3"},
                  "do not separate the surface into what is left and right of them, and the signed "
                  "heat method needs an oriented manifold");
-  expect_refused({"transport", "square.obj", "--vector", "4:1:0", "--backend", "cg"}, "cg");
   expect_refused({"extend", "square.obj", "--value", "4"}, "VERTEX:VALUE");
 }
 
