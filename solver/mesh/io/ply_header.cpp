@@ -8,7 +8,7 @@
 #include <unordered_set>
 #include <utility>
 
-#include "solver/mesh/io/input_file.h"
+#include "solver/mesh/io/header_lines.h"
 #include "solver/mesh/io/text_scanner.h"
 
 namespace geotherm::io {
@@ -27,9 +27,9 @@ std::optional<PlyType> type_named(std::string_view name) {
 }
 
 /// The header, line by line and word by word.
-class HeaderReader {
+class HeaderReader : private HeaderLines {
  public:
-  explicit HeaderReader(std::string_view bytes) : bytes_(bytes), next_(bytes.data()) {}
+  explicit HeaderReader(std::string_view bytes) : HeaderLines(bytes) {}
 
   PlyHeader read() {
     if (!next_line() || word() != "ply") fail("a PLY file starts with the line \"ply\"");
@@ -45,34 +45,16 @@ class HeaderReader {
         read_property();
       } else if (keyword == "end_header") {
         if (!has_format) fail("the header has no line \"format\"");
-        header_.body = next_;
+        header_.body = next();
         return std::move(header_);
       } else if (!keyword.empty() && keyword != "comment" && keyword != "obj_info") {
-        fail("unknown word " + quoted(bytes_, keyword.data()) + " in the header");
+        fail("unknown word " + quoted(bytes(), keyword.data()) + " in the header");
       }
     }
     fail("the file ends inside the header (no \"end_header\")");
   }
 
  private:
-  bool next_line() {
-    const char* const end = bytes_.data() + bytes_.size();
-    if (next_ == end) return false;
-    start_ = next_;
-    const std::string_view rest(start_, static_cast<std::size_t>(end - start_));
-    line_ = rest.substr(0, rest.find('\n'));
-    next_ = start_ + std::min(line_.size() + 1, rest.size());
-    return true;
-  }
-
-  std::string_view word() {
-    constexpr std::string_view kBlanks = " \t\r";
-    line_.remove_prefix(std::min(line_.find_first_not_of(kBlanks), line_.size()));
-    const std::string_view found = line_.substr(0, line_.find_first_of(kBlanks));
-    line_.remove_prefix(found.size());
-    return found;
-  }
-
   void read_format() {
     const std::string_view name = word();
     if (name == "ascii") {
@@ -119,14 +101,6 @@ class HeaderReader {
     return *type;
   }
 
-  [[noreturn]] void fail(const std::string& cause, Hint hint = {}) const {
-    fail_at_line(bytes_, start_, cause, std::move(hint));
-  }
-
-  std::string_view bytes_;
-  const char* next_;           ///< the next line
-  const char* start_ = next_;  ///< this line
-  std::string_view line_;      ///< what is left of this line
   PlyHeader header_;
   std::unordered_set<std::string> names_;  ///< of the elements
 };

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "solver/core/text.h"
-#include "solver/mesh/io/input_file.h"
+#include "solver/mesh/io/header_lines.h"
 #include "solver/mesh/io/text_scanner.h"
 
 namespace geotherm::io {
@@ -17,9 +17,9 @@ namespace {
 constexpr std::uint64_t kMaxOfPoint = 1 << 20;
 
 /// The header, line by line.
-class PcdHeaderReader {
+class PcdHeaderReader : private HeaderLines {
  public:
-  explicit PcdHeaderReader(std::string_view bytes) : bytes_(bytes), next_(bytes.data()) {}
+  explicit PcdHeaderReader(std::string_view bytes) : HeaderLines(bytes) {}
 
   PcdHeader read() {
     while (next_line()) {
@@ -42,7 +42,7 @@ class PcdHeaderReader {
       } else if (keyword == "DATA") {
         return read_data();
       } else if (keyword != "VERSION" && keyword != "VIEWPOINT") {
-        fail("unknown word " + quoted(bytes_, keyword.data()) + " in the header");
+        fail("unknown word " + quoted(bytes(), keyword.data()) + " in the header");
       }
     }
     fail("the file ends inside the header (no \"DATA\")");
@@ -50,24 +50,6 @@ class PcdHeaderReader {
 
  private:
   static constexpr std::uint64_t kMaxPoints = 999'999'999'999;
-
-  bool next_line() {
-    const char* const end = bytes_.data() + bytes_.size();
-    if (next_ == end) return false;
-    start_ = next_;
-    const std::string_view rest(start_, static_cast<std::size_t>(end - start_));
-    line_ = rest.substr(0, rest.find('\n'));
-    next_ = start_ + std::min(line_.size() + 1, rest.size());
-    return true;
-  }
-
-  std::string_view word() {
-    constexpr std::string_view kBlanks = " \t\r";
-    line_.remove_prefix(std::min(line_.find_first_not_of(kBlanks), line_.size()));
-    const std::string_view found = line_.substr(0, line_.find_first_of(kBlanks));
-    line_.remove_prefix(found.size());
-    return found;
-  }
 
   std::uint64_t whole(std::uint64_t most) {
     const std::string_view text = word();
@@ -128,7 +110,7 @@ class PcdHeaderReader {
     } else {
       fail("unknown kind of data", {"there are ascii, binary, binary_compressed"});
     }
-    header_.body = next_;
+    header_.body = next();
     if (header_.fields.empty()) fail("the header has no line \"FIELDS\"");
     if (!points_ && !width_) fail("the header has neither \"POINTS\" nor \"WIDTH\"");
     lay_out();
@@ -159,28 +141,20 @@ class PcdHeaderReader {
       fail("the header announces " + std::to_string(header_.points) + " points, but its grid has " +
            std::to_string(*width_) + " x " + std::to_string(rows));
     }
-    const auto left = static_cast<std::uint64_t>(bytes_.data() + bytes_.size() - header_.body);
+    const auto left = static_cast<std::uint64_t>(bytes().data() + bytes().size() - header_.body);
     // In text a digit and what separates it; packed ones are looked at when they are unpacked.
     const std::uint64_t least = header_.data == PcdData::kAscii    ? 2 * header_.values
                                 : header_.data == PcdData::kBinary ? header_.bytes
                                                                    : 0;
     const std::uint64_t room = header_.data == PcdData::kAscii ? left + 1 : left;
     if (least > 0 && header_.points > room / least) {
-      fail_at_byte(bytes_, header_.body,
+      fail_at_byte(bytes(), header_.body,
                    "the header announces " + std::to_string(header_.points) +
                        " points with at least " + std::to_string(least) + " bytes each, but only " +
                        std::to_string(left) + " bytes follow");
     }
   }
 
-  [[noreturn]] void fail(const std::string& cause, Hint hint = {}) const {
-    fail_at_line(bytes_, start_, cause, std::move(hint));
-  }
-
-  std::string_view bytes_;
-  const char* next_;           ///< the next line
-  const char* start_ = next_;  ///< this line
-  std::string_view line_;      ///< what is left of this line
   PcdHeader header_;
   std::optional<std::uint64_t> width_, height_, points_;
 };
