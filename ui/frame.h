@@ -96,8 +96,7 @@ struct UiState {
   std::vector<Notice> notices;
   std::size_t notified = 0;  ///< lines of the log that notices were made of
   std::vector<std::string> dropped;
-  std::string noted_model;  ///< the file that was noted as opened last
-  bool quit = false;
+  std::string noted_model;                   ///< the file that was noted as opened last
   bool ask_keys = false, ask_about = false;  ///< dialogs to be opened in this frame
   double peak_mb = 0, peak_read_at = -1;     ///< memory of the program, and ImGui's time then
   int awake = 0;                             ///< frames to follow at once

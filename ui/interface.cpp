@@ -160,7 +160,6 @@ FrameOutput Interface::draw(const app::Session& session, const Canvas& canvas) {
       place_panels(ui.layout, window.x, window.y, ui.scale, ImGui::GetFrameHeight(), ui.drawer);
   if (!ui.places.over) ui.drawer = Drawer::kNone;  // it has room now
   ui.items.clear();
-  if (std::exchange(ui.quit, false)) frame.send(app::command::Quit{});
   take_drop(frame);
   note_model(frame);
   take_notices(frame);
@@ -194,8 +193,6 @@ FrameOutput Interface::draw(const app::Session& session, const Canvas& canvas) {
 Rect Interface::canvas() const { return state_->places.canvas; }
 
 void Interface::drop(const std::vector<std::string>& files) { state_->dropped = files; }
-
-void Interface::ask_to_quit() { state_->quit = true; }
 
 const Layout& Interface::layout() const { return state_->layout; }
 

@@ -70,8 +70,6 @@ class Interface {
   Rect canvas() const;
   /// Files that were dropped on the window: the first is opened.
   void drop(const std::vector<std::string>& files);
-  /// The user asked to close the window.
-  void ask_to_quit();
   /// How panels lie now, to be remembered.
   const Layout& layout() const;
   /// Where an item, "Section/key", was in the last draw(); nothing where it was not drawn.

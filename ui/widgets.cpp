@@ -259,11 +259,4 @@ std::optional<std::string> draw_field(Frame& frame, std::string_view key,
   return typed == start ? std::nullopt : std::optional(typed);
 }
 
-std::optional<double> draw_number(Frame& frame, std::string_view key, double current) {
-  const auto typed = draw_field(frame, key, exact(current));
-  if (!typed) return std::nullopt;
-  const auto value = app::number_in<double>(*typed);
-  return value && std::isfinite(*value) ? value : std::nullopt;
-}
-
 }  // namespace geotherm::ui

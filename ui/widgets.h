@@ -70,7 +70,4 @@ std::optional<std::string> draw_choice(Frame& frame, std::string_view key,
 std::optional<std::string> draw_field(Frame& frame, std::string_view key,
                                       const std::string& current, const char* hint = "");
 
-/// The same for a number; what is none, is ignored.
-std::optional<double> draw_number(Frame& frame, std::string_view key, double current);
-
 }  // namespace geotherm::ui

@@ -14,13 +14,13 @@
 namespace geotherm::app {
 namespace {
 
-/// Settings of pictures that have a meaning in a .glb file; a page has all but two.
+/// Settings of pictures that have a meaning in a .glb file; a page has all but samples.
 constexpr std::array<std::string_view, 11> kOfSurface = {
     "view",     "colour-map", "reverse",   "range", "light",       "slice",
     "slice-at", "peel",       "path-kind", "up",    "colour-scale"};
 
 bool has_use(const Setting& setting, SceneFormat format) {
-  if (format == SceneFormat::kPage) return setting.name != "samples" && setting.name != "device";
+  if (format == SceneFormat::kPage) return setting.name != "samples";
   return std::ranges::find(kOfSurface, setting.name) != kOfSurface.end();
 }
 

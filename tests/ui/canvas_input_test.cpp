@@ -338,13 +338,5 @@ TEST_F(CanvasMouse, DroppedFilesOpen) {
   EXPECT_EQ(sent(), Texts{"run /no/such/work.geotherm"});
 }
 
-TEST_F(CanvasMouse, ClosingTheWindowAsksToQuit) {
-  panels_->ask_to_quit();
-  frame();
-  EXPECT_EQ(sent(), Texts{"quit"});
-  frame();
-  EXPECT_EQ(sent(), Texts{});
-}
-
 }  // namespace
 }  // namespace geotherm::ui

@@ -229,7 +229,7 @@ TEST(TetClosestPoint, IsThePointItselfInsideAndOnTheBorderOutsideSlow) {
 }
 
 TEST(TetModels, HaveTheSizeAskedForAndNoBadTetSlow) {
-  for (const std::string& name : volume_names()) {
+  for (const std::string name : {"box-tets", "ball-tets"}) {
     for (const Index tets : {5000, 40000}) {
       const Result<TetMesh> mesh = generate_volume(name, tets);
       ASSERT_TRUE(mesh);
