@@ -180,8 +180,9 @@ Result<std::size_t> jobs_of(const BatchArguments& arguments, const Ranks& ranks)
   }
   const auto jobs = number_in<int>(arguments.jobs);
   if (jobs && *jobs >= 1) return static_cast<std::size_t>(*jobs);
-  return Error{ErrorCode::kBadInput, "--jobs: '" + one_line(arguments.jobs) +
-                                         "' is no number of processes; give a whole number from 1"};
+  return Error{ErrorCode::kBadInput,
+               "--jobs: '" + one_line(arguments.jobs) + "' is no number of processes",
+               {"give a whole number from 1"}};
 }
 
 }  // namespace

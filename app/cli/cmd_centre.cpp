@@ -45,7 +45,7 @@ Result<std::vector<Source>> named_points(const CentreArguments& arguments) {
     out.insert(out.end(), more->begin(), more->end());
   }
   if (!out.empty()) return out;
-  return Error{ErrorCode::kBadInput, "no point was given; name some with --of or --points"};
+  return Error{ErrorCode::kBadInput, "no point was given", {"name some with --of or --points"}};
 }
 
 /// Numbers with commas or blanks between: the text itself, or that of a file.
@@ -67,9 +67,8 @@ Result<std::vector<double>> weights_in(const std::string& text) {
     const auto number = number_in<double>(word);
     if (!number) {
       return Error{ErrorCode::kBadInput,
-                   "--weights: '" + one_line(word) +
-                       "' is no weight; give "
-                       "numbers from 0 on with commas between, or a file of them"};
+                   "--weights: '" + one_line(word) + "' is no weight",
+                   {"give numbers from 0 on with commas between, or a file of them"}};
     }
     out.push_back(*number);
   }
@@ -84,9 +83,8 @@ Result<void> place(const std::vector<Source>& named, CentreFigures& figures) {
     if (set.points.size() != 1 || !set.edges.empty() || !set.segments.empty() ||
         !set.offsets.empty()) {
       return Error{ErrorCode::kBadInput,
-                   "--of: point " + std::to_string(figures.points.size()) +
-                       " is none; write vertex ids, random:K, face:ID:b0:b1:b2 or xyz:x:y:z, "
-                       "without offsets"};
+                   "--of: point " + std::to_string(figures.points.size()) + " is none",
+                   {"write vertex ids, random:K, face:ID:b0:b1:b2 or xyz:x:y:z, without offsets"}};
     }
     figures.points.push_back(set.points.front());
   }
@@ -179,14 +177,11 @@ LinePicture picture_of(const CentreFigures& f) {
 
 void add_centre_options(CLI::App& command, CentreArguments& arguments) {
   add_model_option(command, arguments.model, arguments.settings)->required();
-  command
-      .add_option("--of", arguments.of,
-                  "the points: 17 or 3,99,512 (vertex ids), random:K[:SEED], face:ID:b0:b1:b2 or "
-                  "xyz:x:y:z (the closest point of the surface); may be repeated")
-      ->type_name("POINTS")
-      ->expected(1)
-      ->allow_extra_args(false)
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+  may_repeat(command.add_option(
+                 "--of", arguments.of,
+                 "the points: 17 or 3,99,512 (vertex ids), random:K[:SEED], face:ID:b0:b1:b2 or "
+                 "xyz:x:y:z (the closest point of the surface); may be repeated"),
+             "POINTS")
       ->group("Points");
   command
       .add_option("--points", arguments.points,

@@ -65,9 +65,9 @@ Result<Plan> plan_of(const CompareArguments& arguments) {
   plan.reading = asked->reading;
   const auto queries = number_in<Index>(arguments.queries);
   if (!queries || *queries < 1 || *queries > kMaxQueries) {
-    return Error{ErrorCode::kBadInput, "--queries: '" + one_line(arguments.queries) +
-                                           "' is no number of queries; give 1 to " +
-                                           std::to_string(kMaxQueries)};
+    return Error{ErrorCode::kBadInput,
+                 "--queries: '" + one_line(arguments.queries) + "' is no number of queries",
+                 {"give 1 to " + std::to_string(kMaxQueries)}};
   }
   plan.queries = *queries;
   auto sources = sources_of(arguments.sources);

@@ -28,15 +28,6 @@ namespace {
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
-Result<Source> single_point(const std::string& text, const std::string& option) {
-  auto spec = parse_source(text);
-  if (!spec) return about(option, spec.error());
-  if (is_single_point(*spec)) return Source{*std::move(spec), option + " " + one_line(text)};
-  return Error{ErrorCode::kBadInput, option + ": '" + one_line(text) +
-                                         "' is not one point; write a vertex id, face:ID:b0:b1:b2 "
-                                         "or xyz:x:y:z"};
-}
-
 /// What both commands begin with.
 struct DirectionWork {
   Model model;
@@ -239,14 +230,11 @@ void add_trace_options(CLI::App& command, TraceArguments& arguments) {
       ->required()
       ->type_name("POINT")
       ->group("Lines");
-  command
-      .add_option("--direction", arguments.directions,
-                  "radians from e1 towards e2 of the frame that the report says; may be repeated; "
-                  "default: 0")
-      ->type_name("A")
-      ->expected(1)
-      ->allow_extra_args(false)
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+  may_repeat(command.add_option(
+                 "--direction", arguments.directions,
+                 "radians from e1 towards e2 of the frame that the report says; may be repeated; "
+                 "default: 0"),
+             "A")
       ->group("Lines");
   command
       .add_option("--fan", arguments.fan, "so many lines, in directions spread evenly all round")
@@ -280,9 +268,9 @@ Result<std::vector<double>> directions_of(const TraceArguments& arguments,
     constexpr Index kMost = 1000000;
     const auto count = number_in<Index>(arguments.fan);
     if (!count || *count < 1 || *count > kMost) {
-      return Error{ErrorCode::kBadInput, "--fan: '" + one_line(arguments.fan) +
-                                             "' is no number of lines; give 1 to " +
-                                             std::to_string(kMost)};
+      return Error{ErrorCode::kBadInput,
+                   "--fan: '" + one_line(arguments.fan) + "' is no number of lines",
+                   {"give 1 to " + std::to_string(kMost)}};
     }
     for (Index i = 0; i < *count; ++i) {
       out.push_back(frame.border ? frame.angle * (i + 0.5) / *count
@@ -304,8 +292,8 @@ Result<void> check_lines_fit(const TracedLine& first, std::size_t count) {
   return Error{ErrorCode::kOutOfMemory,
                grouped(count) + " lines of some " + grouped(first.path.points.size()) +
                    " points take " + grouped(std::llround(bytes / kMegabyte)) + " MB, and " +
-                   grouped(std::llround(static_cast<double>(*free) / kMegabyte)) +
-                   " MB are free; trace fewer or shorter ones"};
+                   grouped(std::llround(static_cast<double>(*free) / kMegabyte)) + " MB are free",
+               {"trace fewer or shorter ones"}};
 }
 
 Json lines_json(const TriangleMesh& mesh, const std::vector<double>& directions,

@@ -37,9 +37,10 @@ Result<Index> faces_in(const GenerateArguments& arguments) {
   }
   const auto faces = number_in<Index>(arguments.faces);
   if (faces && *faces >= kMinModelFaces && *faces <= kMaxModelFaces) return *faces;
-  return Error{ErrorCode::kBadInput,
-               "--faces: '" + one_line(arguments.faces) + "' is no number of faces; give " +
-                   std::to_string(kMinModelFaces) + " to " + std::to_string(kMaxModelFaces)};
+  return Error{
+      ErrorCode::kBadInput,
+      "--faces: '" + one_line(arguments.faces) + "' is no number of faces",
+      {"give " + std::to_string(kMinModelFaces) + " to " + std::to_string(kMaxModelFaces)}};
 }
 
 Result<Index> tets_in(const GenerateArguments& arguments) {
@@ -47,9 +48,10 @@ Result<Index> tets_in(const GenerateArguments& arguments) {
   if (arguments.tets.empty()) return kUsual;
   const auto tets = number_in<Index>(arguments.tets);
   if (tets && *tets >= kMinVolumeTets && *tets <= kMaxVolumeTets) return *tets;
-  return Error{ErrorCode::kBadInput,
-               "--tets: '" + one_line(arguments.tets) + "' is no number of tetrahedra; give " +
-                   std::to_string(kMinVolumeTets) + " to " + std::to_string(kMaxVolumeTets)};
+  return Error{
+      ErrorCode::kBadInput,
+      "--tets: '" + one_line(arguments.tets) + "' is no number of tetrahedra",
+      {"give " + std::to_string(kMinVolumeTets) + " to " + std::to_string(kMaxVolumeTets)}};
 }
 
 Result<CommandOutput> generate_volume_file(const GenerateArguments& arguments) {
@@ -60,7 +62,8 @@ Result<CommandOutput> generate_volume_file(const GenerateArguments& arguments) {
   }
   if (!arguments.frames.empty()) {
     return Error{ErrorCode::kBadInput,
-                 "--frames is of surfaces, and " + arguments.name + " is a volume; leave it out"};
+                 "--frames is of surfaces, and " + arguments.name + " is a volume",
+                 {"leave it out"}};
   }
   const auto tets = tets_in(arguments);
   if (!tets) return tets.error();
@@ -125,9 +128,10 @@ Result<CommandOutput> generate_frames(const GenerateArguments& arguments, Index 
   const bool array = io::file_extension(path) == ".npy";
   const auto numbered = NumberedPath::parse(path);
   if (!array && !numbered) {
-    return Error{ErrorCode::kBadInput, "--frames are written into one array, or a mesh each, and " +
-                                           one_line(path) +
-                                           " is neither; give -o FILE.npy or -o 'frame_%04d.obj'"};
+    return Error{ErrorCode::kBadInput,
+                 "--frames are written into one array, or a mesh each, and " + one_line(path) +
+                     " is neither",
+                 {"give -o FILE.npy or -o 'frame_%04d.obj'"}};
   }
   Outputs outputs;
   outputs.keep_together();

@@ -33,17 +33,17 @@ Result<Levels> levels_in(const IsolinesArguments& arguments) {
                      (given == 0   ? "none"
                       : given == 2 ? "two"
                                    : "all") +
-                     " of them given; give one, such as --spacing 0.1, --count 20 or --values "
-                     "0.1,0.2,0.5"};
+                     " of them given",
+                 {"give one, such as --spacing 0.1, --count 20 or --values 0.1,0.2,0.5"}};
   }
   Levels levels;
   if (!arguments.values.empty()) {
     auto values = parse_values(arguments.values);
     if (!values) return about("--values", values.error());
     if (values->empty() || values->front() <= 0) {
-      return Error{ErrorCode::kBadInput, "--values: '" + one_line(arguments.values) +
-                                             "' are no distances of lines; give numbers above 0, "
-                                             "in model units, such as 0.1,0.2,0.5"};
+      return Error{ErrorCode::kBadInput,
+                   "--values: '" + one_line(arguments.values) + "' are no distances of lines",
+                   {"give numbers above 0, in model units, such as 0.1,0.2,0.5"}};
     }
     levels.values = *std::move(values);
     return levels;
@@ -51,18 +51,18 @@ Result<Levels> levels_in(const IsolinesArguments& arguments) {
   if (!arguments.count.empty()) {
     const auto count = number_in<int>(arguments.count);
     if (!count || *count < 1 || *count > kMaxLevels) {
-      return Error{ErrorCode::kBadInput, "--count: '" + one_line(arguments.count) +
-                                             "' is no number of levels; give 1 to " +
-                                             grouped(kMaxLevels)};
+      return Error{ErrorCode::kBadInput,
+                   "--count: '" + one_line(arguments.count) + "' is no number of levels",
+                   {"give 1 to " + grouped(kMaxLevels)}};
     }
     levels.count = *count;
     return levels;
   }
   const auto spacing = number_in<double>(arguments.spacing);
   if (!spacing || !std::isfinite(*spacing) || !(*spacing > 0)) {
-    return Error{ErrorCode::kBadInput, "--spacing: '" + one_line(arguments.spacing) +
-                                           "' is no distance between lines; give a number above 0, "
-                                           "in model units"};
+    return Error{ErrorCode::kBadInput,
+                 "--spacing: '" + one_line(arguments.spacing) + "' is no distance between lines",
+                 {"give a number above 0, in model units"}};
   }
   levels.spacing = *spacing;
   return levels;
@@ -81,12 +81,12 @@ Result<std::vector<double>> levels_up_to(double largest, const Levels& asked) {
   }
   const double number = largest / asked.spacing;
   if (number > kMaxLevels) {
-    return Error{ErrorCode::kBadInput, "--spacing: " + significant(asked.spacing) + " makes " +
-                                           significant(number) +
-                                           " lines up to the largest "
-                                           "distance " +
-                                           significant(largest) + ", more than " +
-                                           grouped(kMaxLevels) + "; give a larger one"};
+    return Error{ErrorCode::kBadInput,
+                 "--spacing: " + significant(asked.spacing) + " makes " + significant(number) +
+                     " lines up to the largest "
+                     "distance " +
+                     significant(largest) + ", more than " + grouped(kMaxLevels),
+                 {"give a larger one"}};
   }
   for (int i = 1; i * asked.spacing < largest; ++i) levels.push_back(i * asked.spacing);
   return levels;

@@ -188,9 +188,10 @@ Result<CommandOutput> run_devices(const DevicesArguments& arguments, Drawing& dr
   const auto devices = drawing.devices();
   if (!devices) return devices.error();
   if (devices->empty()) {
-    return Error{ErrorCode::kNoDevice,
-                 "there is no device that can draw; install a Vulkan driver (Debian: "
-                 "mesa-vulkan-drivers, which also draws in software)"};
+    return Error{
+        ErrorCode::kNoDevice,
+        "there is no device that can draw",
+        {"install a Vulkan driver (Debian: mesa-vulkan-drivers, which also draws in software)"}};
   }
   CommandOutput out;
   if (!outputs.uses_stdout()) out.text = device_table(*devices);

@@ -25,22 +25,21 @@ Result<void> expect_rows(const SolveArguments& arguments, Outputs& outputs) {
   if (arguments.outputs.size() != 1) {
     return Error{ErrorCode::kBadInput,
                  "--each writes one array, and " +
-                     counted(std::ssize(arguments.outputs), "output", "outputs") +
-                     " were given; give -o FILE.npy, or -o - for standard "
-                     "output"};
+                     counted(std::ssize(arguments.outputs), "output", "outputs") + " were given",
+                 {"give -o FILE.npy, or -o - for standard output"}};
   }
   const std::string& path = arguments.outputs.front();
   if (path != "-" && io::file_extension(path) != ".npy" && !is_npz(path)) {
     return Error{ErrorCode::kNotAvailable,
                  one_line(path) +
                      ": --each writes an array of sources x vertices as .npy, or sparse rows as "
-                     ".npz; choose another name"};
+                     ".npz",
+                 {"choose another name"}};
   }
   if (is_npz(path) && !arguments.targets.empty()) {
     return Error{ErrorCode::kBadInput,
-                 one_line(path) +
-                     ": sparse rows are of all vertices, and --target asks for some; "
-                     "write a .npy, or leave --target out"};
+                 one_line(path) + ": sparse rows are of all vertices, and --target asks for some",
+                 {"write a .npy, or leave --target out"}};
   }
   if (auto expected = outputs.expect(path, "--output"); !expected) return expected;
   if (arguments.json.empty()) return {};
@@ -66,7 +65,7 @@ Result<CommandOutput> run_each(const SolveArguments& arguments, const Progress& 
                                const Announce& announce) {
   if (auto fits = refuse_single_options(arguments, "--each"); !fits) return fits.error();
   if (arguments.symmetric) {
-    return Error{ErrorCode::kBadInput, "--symmetric is about --pairs; leave it out"};
+    return Error{ErrorCode::kBadInput, "--symmetric is about --pairs", {"leave it out"}};
   }
   const auto type = number_type(arguments);
   if (!type) return type.error();
@@ -135,15 +134,16 @@ Result<void> expect_matrix(const SolveArguments& arguments, Outputs& outputs) {
       return Error{ErrorCode::kNotAvailable,
                    one_line(path) +
                        ": --pairs writes a matrix as .npy or .csv, and as JSON with "
-                       "--json FILE; choose another name"};
+                       "--json FILE",
+                   {"choose another name"}};
     }
     if (auto expected = outputs.expect(path, "--output"); !expected) return expected;
   }
   const bool typed = arguments.float32 || !arguments.dtype.empty();
   if (typed && std::ranges::none_of(arguments.outputs, is_npy)) {
     return Error{ErrorCode::kBadInput,
-                 "the type of numbers is that of a .npy file; give -o FILE.npy, or leave "
-                 "--dtype and --float32 out"};
+                 "the type of numbers is that of a .npy file",
+                 {"give -o FILE.npy, or leave --dtype and --float32 out"}};
   }
   if (arguments.json.empty()) return {};
   return outputs.expect(arguments.json, "--json");
@@ -154,7 +154,8 @@ Result<std::vector<Index>> vertices_of_pairs(const EachSource& each) {
   auto vertices = vertices_of_each(each, "--pairs: source");
   if (!vertices || vertices->size() >= 2) return vertices;
   return Error{ErrorCode::kBadInput,
-               "--pairs: one vertex makes no pair; give several, such as -s 3,99,512"};
+               "--pairs: one vertex makes no pair",
+               {"give several, such as -s 3,99,512"}};
 }
 
 Result<void> check_memory(std::size_t vertices) {
@@ -165,8 +166,8 @@ Result<void> check_memory(std::size_t vertices) {
   return Error{ErrorCode::kOutOfMemory,
                "--pairs: " + counted(static_cast<std::int64_t>(vertices), "vertex", "vertices") +
                    " make a matrix of " + bytes_in_words(bytes) + ", and " +
-                   bytes_in_words(static_cast<double>(*free)) +
-                   " of memory are free; take fewer, or --each, which streams"};
+                   bytes_in_words(static_cast<double>(*free)) + " of memory are free",
+               {"take fewer, or --each, which streams"}};
 }
 
 Result<void> write_npy(const std::string& path, const PairMatrix& pairs, NpyType type) {
@@ -284,7 +285,8 @@ Result<CommandOutput> run_pairs(const SolveArguments& arguments, const Progress&
   pairs.vertices = *std::move(vertices);
   if (!arguments.targets.empty()) {
     return Error{ErrorCode::kBadInput,
-                 "--target: the targets of --pairs are its sources; leave it out, or take --each"};
+                 "--target: the targets of --pairs are its sources",
+                 {"leave it out, or take --each"}};
   }
   work->reach.targets = pairs.vertices;
   const auto rows = static_cast<std::uint64_t>(pairs.size());

@@ -37,24 +37,15 @@ struct PathTask {
   bool named_method = false;                ///< else the method follows from the number of paths
 };
 
-Result<Source> point_of(const std::string& text, const std::string& option) {
-  auto spec = parse_source(text);
-  if (!spec) return about(option, spec.error());
-  if (is_single_point(*spec)) return Source{*std::move(spec), option + " " + one_line(text)};
-  return Error{ErrorCode::kBadInput, option + ": '" + one_line(text) +
-                                         "' is not one point; write a vertex id, face:ID:b0:b1:b2 "
-                                         "or xyz:x:y:z"};
-}
-
 /// The paths from --from by way of --via to each --to, which may name several vertices.
 Result<std::vector<std::vector<Source>>> tree_of(const PathArguments& arguments) {
   if (arguments.from.empty() || arguments.to.empty()) {
-    return Error{ErrorCode::kBadInput,
-                 "a path needs two points; give --from and --to, or --pairs FILE"};
+    return Error{
+        ErrorCode::kBadInput, "a path needs two points", {"give --from and --to, or --pairs FILE"}};
   }
   std::vector<Source> shared;
   const auto add = [&shared](const std::string& text, const std::string& option) -> Result<void> {
-    auto point = point_of(text, option);
+    auto point = single_point(text, option);
     if (!point) return point.error();
     shared.push_back(*std::move(point));
     return {};
@@ -77,7 +68,8 @@ Result<std::vector<std::vector<Source>>> tree_of(const PathArguments& arguments)
 Result<std::vector<std::vector<Source>>> pairs_of(const PathArguments& arguments) {
   if (!arguments.from.empty() || !arguments.to.empty() || !arguments.via.empty()) {
     return Error{ErrorCode::kBadInput,
-                 "--pairs: the file has all points; leave --from, --via and --to out"};
+                 "--pairs: the file has all points",
+                 {"leave --from, --via and --to out"}};
   }
   const auto file = io::FileBytes::read(arguments.pairs);
   if (!file) return about("--pairs", file.error());
@@ -89,19 +81,21 @@ Result<std::vector<std::vector<Source>>> pairs_of(const PathArguments& arguments
     std::vector<Source> points;
     const std::string where = "--pairs line " + std::to_string(number);
     for (std::string word; words >> word;) {
-      auto point = point_of(word, where);
+      auto point = single_point(word, where);
       if (!point) return point.error();
       points.push_back(*std::move(point));
     }
     if (points.size() == 1) {
       return Error{ErrorCode::kBadInput,
-                   where + " has one point; a path is two or more, with blanks between"};
+                   where + " has one point",
+                   {"a path is two or more, with blanks between"}};
     }
     if (!points.empty()) routes.push_back(std::move(points));
   }
   if (!routes.empty()) return routes;
-  return Error{ErrorCode::kBadInput, "--pairs: " + one_line(arguments.pairs) +
-                                         " has no points; write two or more a line"};
+  return Error{ErrorCode::kBadInput,
+               "--pairs: " + one_line(arguments.pairs) + " has no points",
+               {"write two or more a line"}};
 }
 
 Result<PathTask> task_of(const PathArguments& arguments) {
@@ -118,19 +112,21 @@ Result<PathTask> task_of(const PathArguments& arguments) {
   task.named_method = arguments.settings.has("method");
   if (geodesic && !task.named_method) task.method.method = MethodKind::kWavefront;
   if (task.options.field == PathField::kHeat && task.method.method != MethodKind::kHeat) {
-    return Error{ErrorCode::kBadInput, "--field heat follows the heat u, which --method " +
-                                           to_text(task.method.method) +
-                                           " has not; use --method heat"};
+    return Error{ErrorCode::kBadInput,
+                 "--field heat follows the heat u, which --method " + to_text(task.method.method) +
+                     " has not",
+                 {"use ", SettingHint{"method", {"heat"}}}};
   }
   if (arguments.closed && arguments.pairs.empty() && arguments.to.size() != 1) {
-    return Error{ErrorCode::kBadInput, "--closed: a loop has one --to, and " +
-                                           std::to_string(arguments.to.size()) +
-                                           " were given; name the points between with --via"};
+    return Error{
+        ErrorCode::kBadInput,
+        "--closed: a loop has one --to, and " + std::to_string(arguments.to.size()) + " were given",
+        {"name the points between with --via"}};
   }
   if (arguments.hold && (!arguments.closed || !geodesic)) {
     return Error{ErrorCode::kBadInput,
-                 "--hold: only a closed geodesic can leave its points; add --closed, or leave "
-                 "--hold out"};
+                 "--hold: only a closed geodesic can leave its points",
+                 {"add --closed, or leave --hold out"}};
   }
   task.tree = arguments.pairs.empty();
   auto routes = task.tree ? tree_of(arguments) : pairs_of(arguments);
@@ -163,7 +159,8 @@ Result<void> add_routes(const std::vector<Source>& points, bool tree, const Tria
   note(ends->warnings);
   for (const SourceSet& end : ends->sets) {
     if (end.points.size() != 1 || (!tree && ends->sets.size() != 1)) {
-      return Error{ErrorCode::kBadInput, points.back().where + " is no point; a path ends in one"};
+      return Error{
+          ErrorCode::kBadInput, points.back().where + " is no point", {"a path ends in one"}};
     }
     routes.push_back({shared, points.back().where});
     routes.back().stops.push_back(end.points.front());
@@ -229,9 +226,10 @@ Result<void> find_paths(const PathTask& task, Check check, const Progress& progr
     if (!added) return added;
   }
   if (task.options.closed && task.tree && routes.size() != 1) {
-    return Error{ErrorCode::kBadInput, "--closed: a loop has one --to, and " +
-                                           std::to_string(routes.size()) +
-                                           " were given; name the points between with --via"};
+    return Error{
+        ErrorCode::kBadInput,
+        "--closed: a loop has one --to, and " + std::to_string(routes.size()) + " were given",
+        {"name the points between with --via"}};
   }
   const bool geodesics = task.options.field == PathField::kGeodesic;
   if (geodesics && !task.named_method && task.tree &&
@@ -281,12 +279,7 @@ void add_path_options(CLI::App& command, PathArguments& arguments) {
   add_model_option(command, arguments.model, arguments.settings)->required();
   const auto add_points = [&command](const char* name, std::vector<std::string>& points,
                                      const char* help) {
-    return command.add_option(name, points, help)
-        ->type_name("POINT")
-        ->expected(1)
-        ->allow_extra_args(false)
-        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
-        ->group("Points");
+    return may_repeat(command.add_option(name, points, help), "POINT")->group("Points");
   };
   command
       .add_option("--from", arguments.from,
@@ -349,9 +342,10 @@ Result<CommandOutput> run_path(const PathArguments& arguments, const Progress& p
     if (auto table = outputs.expect(arguments.lengths, "--lengths"); !table) return table.error();
     const std::string ending = io::file_extension(arguments.lengths);
     if (arguments.lengths != "-" && ending != ".csv" && ending != ".npy") {
-      return Error{ErrorCode::kNotAvailable, "--lengths: " + one_line(arguments.lengths) +
-                                                 ": unknown extension '" + one_line(ending) +
-                                                 "'; there are .csv .npy"};
+      return Error{ErrorCode::kNotAvailable,
+                   "--lengths: " + one_line(arguments.lengths) + ": unknown extension '" +
+                       one_line(ending) + "'",
+                   {"there are .csv .npy"}};
     }
   }
   auto model = load_model(arguments.model, task->reading, progress);

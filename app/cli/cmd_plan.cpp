@@ -61,8 +61,9 @@ constexpr double kMaxVertices = std::numeric_limits<Index>::max() / 3.0;
 Result<double> whole_number(const std::string& text, const char* option) {
   const auto number = number_in<double>(text);
   if (number && *number >= 1 && *number <= 1e15 && *number == std::floor(*number)) return *number;
-  return Error{ErrorCode::kBadInput, std::string(option) + ": '" + one_line(text) +
-                                         "' is no count; give a whole number from 1, such as 2e6"};
+  return Error{ErrorCode::kBadInput,
+               std::string(option) + ": '" + one_line(text) + "' is no count",
+               {"give a whole number from 1, such as 2e6"}};
 }
 
 struct SharedPlan {
@@ -124,16 +125,15 @@ Result<CommandOutput> run_plan(const PlanArguments& arguments) {
   const bool shared = *sources == 1 && *ranks > 1;
   const double most_vertices = shared ? kMaxShared : kMaxVertices;
   if (*vertices > most_vertices) {
-    return Error{
-        ErrorCode::kBadInput,
-        std::string("--vertices: ") + (shared ? "ranks share" : "a process holds") +
-            " meshes of up to " + grouped(static_cast<std::int64_t>(most_vertices)) +
-            " vertices, not " + grouped(static_cast<std::int64_t>(*vertices)) +
-            (shared || *vertices > kMaxShared
-                 ? "; simplify the mesh first"
-                 : "; rows of many sources are made by processes that hold all of it, while "
-                   "ranks share it for one row, from any number of sources (leave "
-                   "--sources out, and give --ranks)")};
+    return Error{ErrorCode::kBadInput,
+                 std::string("--vertices: ") + (shared ? "ranks share" : "a process holds") +
+                     " meshes of up to " + grouped(static_cast<std::int64_t>(most_vertices)) +
+                     " vertices, not " + grouped(static_cast<std::int64_t>(*vertices)),
+                 {shared || *vertices > kMaxShared
+                      ? "simplify the mesh first"
+                      : "rows of many sources are made by processes that hold all of it, while "
+                        "ranks share it for one row, from any number of sources (leave "
+                        "--sources out, and give --ranks)"}};
   }
   Outputs outputs;
   if (!arguments.json.empty()) {

@@ -29,18 +29,19 @@ Result<void> check_output(const RenderArguments& arguments, const PictureSetting
   const std::string& path = arguments.output;
   if (scene_format(path)) {
     if (settings.turntable == 0) return {};
-    return Error{ErrorCode::kBadInput, "--turntable: " + one_line(path) +
-                                           " is turned by whoever looks at it; leave it out, or "
-                                           "give -o FILE.png"};
+    return Error{ErrorCode::kBadInput,
+                 "--turntable: " + one_line(path) + " is turned by whoever looks at it",
+                 {"leave it out, or give -o FILE.png"}};
   }
   if (path == "-" && settings.turntable > 0) {
     return Error{ErrorCode::kBadInput,
-                 "--turntable: several pictures cannot go to standard output; give -o FILE.png"};
+                 "--turntable: several pictures cannot go to standard output",
+                 {"give -o FILE.png"}};
   }
   if (is_film(path) && settings.turntable == 0) {
-    return Error{ErrorCode::kBadInput, "--output: " + one_line(path) +
-                                           ": one picture is no film; add --turntable 72 or "
-                                           "--sequence, or give -o FILE.png"};
+    return Error{ErrorCode::kBadInput,
+                 "--output: " + one_line(path) + ": one picture is no film",
+                 {"add --turntable 72 or --sequence, or give -o FILE.png"}};
   }
   if (auto fits = check_film(arguments, settings); !fits) return fits;
   const std::string extension = io::file_extension(path);
@@ -49,7 +50,8 @@ Result<void> check_output(const RenderArguments& arguments, const PictureSetting
                "--output: " + one_line(path) + ": pictures are written as " +
                    ".png, .pdf or .svg, films as .mp4 and .gif, scenes as .html and "
                    ".glb, not '" +
-                   one_line(extension) + "'; give -o FILE.png"};
+                   one_line(extension) + "'",
+               {"give -o FILE.png"}};
 }
 
 Result<void> expect_outputs(const RenderArguments& arguments, const PictureSettings& settings,
@@ -70,29 +72,25 @@ Result<std::vector<Source>> sources_for(const RenderArguments& arguments, View v
     return sources;
   }
   return Error{ErrorCode::kBadInput,
-               "no source was given, which --view " + geotherm::to_text(view) +
-                   " needs; say where distance is 0, such as -s 17 or -s boundary, or choose "
-                   "--view smooth"};
+               "no source was given, which --view " + geotherm::to_text(view) + " needs",
+               {"say where distance is 0, such as -s 17 or -s boundary, or choose ",
+                SettingHint{"view", {"smooth"}}}};
 }
 
 /// Where paths are to lead. Errors: kBadInput, with what was typed.
 Result<std::vector<Source>> targets_of(const std::vector<std::string>& texts) {
   std::vector<Source> targets;
   for (const std::string& text : texts) {
-    auto spec = parse_source(text);
-    if (!spec) return about("--path", spec.error());
-    if (!is_single_point(*spec)) {
-      return Error{ErrorCode::kBadInput, "--path: '" + one_line(text) +
-                                             "' is not one point; write a vertex id, "
-                                             "face:ID:b0:b1:b2 or xyz:x:y:z"};
-    }
-    targets.push_back({*std::move(spec), "--path " + one_line(text), ErrorCode::kBadInput});
+    auto target = single_point(text, "--path");
+    if (!target) return target.error();
+    targets.push_back(*std::move(target));
   }
   return targets;
 }
 
-/// Of several models --grid 2x1 says columns and rows; what the values of a grid mean, which it
-/// says otherwise, stays where it is. Errors: kBadInput (another number of rows).
+/// With several models --grid 2x1 gives columns and rows, which are taken out of the settings; with
+/// one model the option says what the values of a grid mean, and stays. Errors: kBadInput (rows
+/// that do not hold the models).
 Result<RenderArguments> with_grid_of_models(RenderArguments arguments) {
   const auto typed = arguments.settings.texts.find("grid");
   if (arguments.more_models.empty() || typed == arguments.settings.texts.end()) return arguments;
@@ -104,14 +102,16 @@ Result<RenderArguments> with_grid_of_models(RenderArguments arguments) {
   const int models = 1 + static_cast<int>(arguments.more_models.size());
   if (!arguments.columns.empty()) {
     return Error{ErrorCode::kBadInput,
-                 "--grid and --columns both say how models are placed; leave one of them out"};
+                 "--grid and --columns both say how models are placed",
+                 {"leave one of them out"}};
   }
   if (*columns < 1 || *columns > models || (models + *columns - 1) / *columns != *rows) {
     const int most = std::clamp(*columns, 1, models);
     return Error{ErrorCode::kBadInput,
                  "--grid: '" + one_line(text) + "' is no grid of " + std::to_string(models) +
-                     " models, columns before rows; give " + std::to_string(most) + 'x' +
-                     std::to_string((models + most - 1) / most) + ", or --columns N"};
+                     " models, columns before rows",
+                 {"give " + std::to_string(most) + 'x' +
+                  std::to_string((models + most - 1) / most) + ", or --columns N"}};
   }
   arguments.columns = std::to_string(*columns);
   arguments.settings.texts.erase(typed);
@@ -144,14 +144,11 @@ void add_render_options(CLI::App& command, RenderArguments& arguments) {
       ->required();
   command.add_option("--json", arguments.json, "every figure as JSON; - is standard output")
       ->type_name("FILE");
-  command
-      .add_option("--path", arguments.targets,
-                  "draws the path from the nearest source to this point (17, face:ID:b0:b1:b2, "
-                  "xyz:x:y:z), as --path-kind says; may be repeated")
-      ->type_name("POINT")
-      ->expected(1)
-      ->allow_extra_args(false)
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  may_repeat(command.add_option(
+                 "--path", arguments.targets,
+                 "draws the path from the nearest source to this point (17, face:ID:b0:b1:b2, "
+                 "xyz:x:y:z), as --path-kind says; may be repeated"),
+             "POINT");
   command
       .add_option("--field", arguments.field,
                   "draws these values of vertices in place of distances, an array in .npy with one "
@@ -197,10 +194,10 @@ Result<CommandOutput> run_render(const RenderArguments& typed, Drawing& drawing,
   const MethodOptions& options = asked->options;
   if (auto fits = check_figure(*settings, options, arguments); !fits) return fits.error();
   if (needs_fields(settings->view) && options.method != MethodKind::kHeat) {
-    return Error{ErrorCode::kBadInput, "--view " + geotherm::to_text(settings->view) +
-                                           " shows the heat u, which --method " +
-                                           to_text(options.method) +
-                                           " has not; use --method heat or another view"};
+    return Error{ErrorCode::kBadInput,
+                 "--view " + geotherm::to_text(settings->view) +
+                     " shows the heat u, which --method " + to_text(options.method) + " has not",
+                 {"use ", SettingHint{"method", {"heat"}}, " or another view"}};
   }
   if (auto fits = refuse_with_sequence(arguments.sequence, arguments.check); !fits) {
     return fits.error();
@@ -213,8 +210,8 @@ Result<CommandOutput> run_render(const RenderArguments& typed, Drawing& drawing,
     }
   }
   if (!arguments.columns.empty() && arguments.more_models.empty()) {
-    return Error{ErrorCode::kBadInput,
-                 "--columns is for several models; name them, or leave it out"};
+    return Error{
+        ErrorCode::kBadInput, "--columns is for several models", {"name them, or leave it out"}};
   }
   for (const std::string& model : arguments.more_models) {
     std::error_code unknown;
@@ -240,7 +237,8 @@ Result<CommandOutput> run_render(const RenderArguments& typed, Drawing& drawing,
   }
   if (!targets->empty() && sources->empty()) {
     return Error{ErrorCode::kBadInput,
-                 "--path: no source was given, so that no path leads there; add -s"};
+                 "--path: no source was given, so that no path leads there",
+                 {"add -s"}};
   }
   const RenderPlaces places{*sources, *targets};
   const std::optional<SceneFormat> format = scene_format(arguments.output);

@@ -83,8 +83,8 @@ Result<CommandOutput> run_render_models(const RenderArguments& arguments, const 
                                         const Progress& progress) {
   if (scene_format(arguments.output)) {
     return Error{ErrorCode::kBadInput,
-                 "--output: " + one_line(arguments.output) +
-                     " shows one model; for several give -o FILE.png, FILE.pdf or FILE.svg"};
+                 "--output: " + one_line(arguments.output) + " shows one model",
+                 {"for several give -o FILE.png, FILE.pdf or FILE.svg"}};
   }
   const auto columns = columns_of(arguments, asked.settings);
   if (!columns) return columns.error();

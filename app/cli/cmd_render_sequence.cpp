@@ -24,28 +24,31 @@ namespace {
 
 /// What does not go with frames. Errors: kBadInput.
 Result<void> refuse_other_pictures(const RenderArguments& arguments, const AskedPicture& asked) {
-  const auto refuse = [](const std::string& option, const std::string& why) {
-    return Error{ErrorCode::kBadInput, option + " does not go with --sequence, " + why};
+  const auto refuse = [](const std::string& option, const std::string& why, Hint hint) {
+    return Error{ErrorCode::kBadInput, option + " does not go with --sequence, " + why,
+                 std::move(hint)};
   };
   const View view = asked.settings.view;
   if (!arguments.more_models.empty()) {
-    return refuse("a second model", "which moves one; leave the others out");
+    return refuse("a second model", "which moves one", {"leave the others out"});
   }
   if (asked.settings.turntable > 0) {
-    return refuse("--turntable", "whose pictures are those of the frames; leave one of them out");
+    return refuse("--turntable", "whose pictures are those of the frames",
+                  {"leave one of them out"});
   }
   if (!arguments.max_distance.empty()) {
-    return refuse("--max-distance", "whose scale is that of all frames; leave one of them out");
+    return refuse("--max-distance", "whose scale is that of all frames", {"leave one of them out"});
   }
   if (!arguments.targets.empty()) {
-    return refuse("--path", "which draws distances alone; leave one of them out");
+    return refuse("--path", "which draws distances alone", {"leave one of them out"});
   }
   if (view == View::kExactError) {
-    return refuse("--view exact-error", "whose first frame alone is checked; choose another view");
+    return refuse("--view exact-error", "whose first frame alone is checked",
+                  {"choose another view"});
   }
   if (view == View::kRegions && asked.state.options.method == MethodKind::kHeat) {
-    return refuse("--view regions by heat",
-                  "for heat does not know the nearest source; add --method wavefront");
+    return refuse("--view regions by heat", "for heat does not know the nearest source",
+                  {"add ", SettingHint{"method", {"wavefront"}}});
   }
   return {};
 }
@@ -56,8 +59,10 @@ Result<NumberedPath> numbered_output(const std::string& path) {
   auto numbered = NumberedPath::parse(path);
   if (!numbered) return about("--output", numbered.error());
   if (io::file_extension(path) == ".png") return numbered;
-  return Error{ErrorCode::kBadInput, "--output: " + one_line(path) + ": pictures are written as " +
-                                         ".png, films as .mp4 and .gif; give -o 'frame_%04d.png'"};
+  return Error{
+      ErrorCode::kBadInput,
+      "--output: " + one_line(path) + ": pictures are written as " + ".png, films as .mp4 and .gif",
+      {"give -o 'frame_%04d.png'"}};
 }
 
 /// Points that enclose all frames almost as closely as all of their vertices: the farthest ones in

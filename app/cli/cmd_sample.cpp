@@ -40,9 +40,9 @@ Result<Index> number_in_option(const std::string& text, const char* option, Inde
                                const char* what) {
   const auto number = number_in<Index>(text);
   if (number && *number >= least) return *number;
-  return Error{ErrorCode::kBadInput, std::string(option) + ": '" + one_line(text) + "' is no " +
-                                         what + "; give a whole number from " +
-                                         std::to_string(least)};
+  return Error{ErrorCode::kBadInput,
+               std::string(option) + ": '" + one_line(text) + "' is no " + what,
+               {"give a whole number from " + std::to_string(least)}};
 }
 
 bool is_json(const std::string& path) { return io::file_extension(path) == ".json"; }
@@ -59,9 +59,10 @@ Result<void> expect_outputs(const SampleArguments& arguments, Outputs& outputs) 
   if (!samples.empty()) {
     const std::string extension = io::file_extension(samples);
     if (samples != "-" && extension != ".csv" && extension != ".npy") {
-      return Error{ErrorCode::kNotAvailable,
-                   "--samples: " + one_line(samples) +
-                       ": the list of samples is written as .csv or .npy; choose another name"};
+      return Error{
+          ErrorCode::kNotAvailable,
+          "--samples: " + one_line(samples) + ": the list of samples is written as .csv or .npy",
+          {"choose another name"}};
     }
     if (auto expected = outputs.expect(samples, "--samples"); !expected) return expected;
   }
@@ -251,14 +252,11 @@ void add_sample_options(CLI::App& command, SampleArguments& arguments) {
           "Lloyd's iteration: so many times, or until nothing is gained, every sample moves "
           "to the mean of the part of the surface that is nearest to it")
       ->type_name("N");
-  command
-      .add_option("-o,--output", arguments.outputs,
-                  "distance to the nearest sample and its number, for every vertex: .csv .npy .ply "
-                  ".vtp, or - for CSV on standard output; .json is the report; may be repeated")
-      ->type_name("FILE")
-      ->expected(1)
-      ->allow_extra_args(false)
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  may_repeat(command.add_option(
+                 "-o,--output", arguments.outputs,
+                 "distance to the nearest sample and its number, for every vertex: .csv .npy .ply "
+                 ".vtp, or - for CSV on standard output; .json is the report; may be repeated"),
+             "FILE");
   command
       .add_option("--samples", arguments.samples,
                   "the samples in their order: vertex, position, distance to those before, radius "

@@ -21,9 +21,9 @@ namespace {
 
 Result<void> refuse_other_answers(const SolveArguments& arguments) {
   const auto refuse = [](const std::string& option, const std::string& why) {
-    return Error{ErrorCode::kBadInput, option + " " + why +
-                                           ", and --sequence writes the distances of every frame; "
-                                           "leave one of them out"};
+    return Error{ErrorCode::kBadInput,
+                 option + " " + why + ", and --sequence writes the distances of every frame",
+                 {"leave one of them out"}};
   };
   if (arguments.each) return refuse("--each", "solves for each source by itself");
   if (arguments.pairs) return refuse("--pairs", "is about the sources alone");
@@ -46,20 +46,21 @@ Result<void> expect_output(const SolveArguments& arguments, Outputs& outputs) {
   if (arguments.outputs.size() != 1) {
     return Error{ErrorCode::kBadInput,
                  "--sequence writes one output, and " +
-                     counted(std::ssize(arguments.outputs), "was", "were") +
-                     " given; give -o FILE.npy, -o FILE.pvd, or -o - for standard output"};
+                     counted(std::ssize(arguments.outputs), "was", "were") + " given",
+                 {"give -o FILE.npy, -o FILE.pvd, or -o - for standard output"}};
   }
   const std::string& path = arguments.outputs.front();
   if (path != "-" && io::file_extension(path) != ".npy" && !is_collection(path)) {
     return Error{ErrorCode::kNotAvailable,
                  one_line(path) +
                      ": --sequence writes an array of frames x vertices as .npy, or a .vtp file "
-                     "for each frame and the .pvd file that lists them; choose another name"};
+                     "for each frame and the .pvd file that lists them",
+                 {"choose another name"}};
   }
   if (is_collection(path) && (arguments.float32 || !arguments.dtype.empty())) {
     return Error{ErrorCode::kBadInput,
-                 "the type of numbers is that of a .npy file; give -o FILE.npy, or leave "
-                 "--dtype and --float32 out"};
+                 "the type of numbers is that of a .npy file",
+                 {"give -o FILE.npy, or leave --dtype and --float32 out"}};
   }
   if (auto expected = outputs.expect(path, "--output"); !expected) return expected;
   if (arguments.json.empty()) return {};

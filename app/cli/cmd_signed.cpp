@@ -25,9 +25,8 @@ namespace {
 
 Error bad_line(const std::string& path, std::size_t line) {
   return {ErrorCode::kBadFile,
-          one_line(path) + ": line " + std::to_string(line) +
-              " is no point of a curve; give what geotherm path and isolines write: "
-              "line,point,x,y,z,face,b0,b1,b2"};
+          one_line(path) + ": line " + std::to_string(line) + " is no point of a curve",
+          {"give what geotherm path and isolines write: line,point,x,y,z,face,b0,b1,b2"}};
 }
 
 /// Lines as path and isolines write them into .csv.
@@ -65,15 +64,9 @@ Result<SurfacePath> curve_through(const std::vector<std::string>& texts, bool cl
                                   const Progress& progress) {
   std::vector<SurfacePoint> points;
   for (const std::string& text : texts) {
-    auto spec = parse_source(text);
-    if (!spec) return about("--through", spec.error());
-    if (!is_single_point(*spec)) {
-      return Error{ErrorCode::kBadInput, "--through: '" + one_line(text) +
-                                             "' is not one point; write a vertex id, "
-                                             "face:ID:b0:b1:b2 or xyz:x:y:z"};
-    }
-    const Source source{*std::move(spec), "--through " + one_line(text)};
-    const auto placed = resolve_sources({&source, 1}, *model.mesh);
+    const auto source = single_point(text, "--through");
+    if (!source) return source.error();
+    const auto placed = resolve_sources({&*source, 1}, *model.mesh);
     if (!placed) return placed.error();
     points.push_back(placed->set.points.front());
     warnings.insert(warnings.end(), placed->warnings.begin(), placed->warnings.end());
@@ -136,14 +129,11 @@ Result<void> write_levels(const std::string& path, const Model& model,
 
 void add_signed_options(CLI::App& command, SignedArguments& arguments) {
   add_model_option(command, arguments.model, arguments.settings)->required();
-  command
-      .add_option("--through", arguments.through,
-                  "a point of a curve: a vertex id, face:ID:b0:b1:b2 or xyz:x:y:z; repeated, in "
-                  "order, geodesics between them")
-      ->type_name("POINT")
-      ->expected(1)
-      ->allow_extra_args(false)
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+  may_repeat(command.add_option(
+                 "--through", arguments.through,
+                 "a point of a curve: a vertex id, face:ID:b0:b1:b2 or xyz:x:y:z; repeated, in "
+                 "order, geodesics between them"),
+             "POINT")
       ->group("Curves");
   command
       .add_flag("--closed", arguments.closed, "that curve goes on from its last point to the first")
@@ -177,8 +167,8 @@ Result<CommandOutput> run_signed(const SignedArguments& arguments, const Progres
       arguments.rule.empty() ? Result<SideRule>(SideRule::kAuto) : parse<SideRule>(arguments.rule);
   if (!rule) return about("--rule", rule.error());
   if (arguments.through.empty() && arguments.curves.empty()) {
-    return Error{ErrorCode::kBadInput,
-                 "there is no curve; give --through points, or --curves FILE.csv"};
+    return Error{
+        ErrorCode::kBadInput, "there is no curve", {"give --through points, or --curves FILE.csv"}};
   }
   Outputs outputs;
   protect_inputs(arguments.model, {}, outputs);

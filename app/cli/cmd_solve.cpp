@@ -42,11 +42,10 @@ Result<void> expect_outputs(const SolveArguments& arguments, Outputs& outputs) {
   protect_inputs(arguments.model, arguments.sources, outputs);
   for (const std::string& path : arguments.outputs) {
     if (is_of_render(path)) {
-      return Error{ErrorCode::kNotAvailable,
-                   "--output: " + one_line(path) +
-                       ": solve writes distances as numbers; geotherm render draws them, with "
-                       "the same model, sources and -o " +
-                       one_line(path)};
+      return Error{
+          ErrorCode::kNotAvailable,
+          "--output: " + one_line(path) + ": solve writes distances as numbers",
+          {"geotherm render draws them, with the same model, sources and -o " + one_line(path)}};
     }
     // What a space writes beside is known when the model is.
     const bool known_of_space = check_tet_distances_path(path) || check_grid_distances_path(path);
@@ -71,7 +70,8 @@ Result<void> check_bake(const SolveArguments& arguments, const Drawing& drawing)
   if (arguments.bake.empty()) return {};
   if (std::ranges::none_of(arguments.outputs, is_ply)) {
     return Error{ErrorCode::kBadInput,
-                 "--bake-colours: colours are written into .ply files; give -o FILE.ply"};
+                 "--bake-colours: colours are written into .ply files",
+                 {"give -o FILE.ply"}};
   }
   const auto known = drawing.colours(arguments.bake);
   return known ? Result<void>() : about("--bake-colours", known.error());
@@ -115,18 +115,15 @@ void add_many_options(CLI::App& command, SolveArguments& arguments) {
 void add_solve_options(CLI::App& command, SolveArguments& arguments) {
   add_model_option(command, arguments.model, arguments.settings)->required();
   add_source_options(command, arguments.sources);
-  command
-      .add_option("-o,--output", arguments.outputs,
-                  "where the distances go: .csv .npy .ply .vtp, of a volume .vtu, of a grid .vti, "
-                  "or - for CSV on "
-                  "standard output; "
-                  "may be repeated; with --each .npy and .npz, with --pairs .npy and .csv, with "
-                  "--sequence .npy "
-                  "and .pvd")
-      ->type_name("FILE")
-      ->expected(1)
-      ->allow_extra_args(false)
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  may_repeat(command.add_option(
+                 "-o,--output", arguments.outputs,
+                 "where the distances go: .csv .npy .ply .vtp, of a volume .vtu, of a grid .vti, "
+                 "or - for CSV on "
+                 "standard output; "
+                 "may be repeated; with --each .npy and .npz, with --pairs .npy and .csv, with "
+                 "--sequence .npy "
+                 "and .pvd"),
+             "FILE");
   command.add_option("--json", arguments.json, "every figure as JSON; - is standard output")
       ->type_name("FILE");
   command
@@ -180,10 +177,10 @@ namespace {
 Result<void> refuse_options_of_many(const SolveArguments& arguments) {
   const bool typed = arguments.float32 || !arguments.dtype.empty();
   if (!typed && !arguments.symmetric) return {};
-  return Error{
-      ErrorCode::kBadInput,
-      typed ? "--dtype and --float32 are about --each, --pairs and --sequence; leave them out"
-            : "--symmetric is about --pairs; leave it out"};
+  return Error{ErrorCode::kBadInput,
+               typed ? "--dtype and --float32 are about --each, --pairs and --sequence"
+                     : "--symmetric is about --pairs",
+               {typed ? "leave them out" : "leave it out"}};
 }
 
 /// A field of the error needs a thorough check; fields of the heat need the heat.
@@ -208,8 +205,8 @@ namespace {
 
 Error refuse_fields_of_targets() {
   return {ErrorCode::kBadInput,
-          "--fields are of all vertices, and --target asks for some; write a .ply or .vtp, or "
-          "leave one of them out"};
+          "--fields are of all vertices, and --target asks for some",
+          {"write a .ply or .vtp, or leave one of them out"}};
 }
 
 /// The rows of the targets alone, as .npy or .csv.
@@ -236,9 +233,11 @@ std::string target_bytes(const std::string& path, const std::vector<Index>& targ
 Result<CommandOutput> run_solve(const SolveArguments& arguments, const Drawing& drawing,
                                 const Progress& progress, const Announce& announce) {
   if (arguments.each && arguments.pairs) {
-    return Error{ErrorCode::kBadInput,
-                 "--each and --pairs were both given; --each writes whole rows, --pairs those of "
-                 "the sources' vertices; leave one of them out"};
+    return Error{
+        ErrorCode::kBadInput,
+        "--each and --pairs were both given: --each writes whole rows, --pairs those of the "
+        "sources' vertices",
+        {"leave one of them out"}};
   }
   if (auto fits = refuse_with_sequence(arguments.sequence, arguments.check); !fits) {
     return fits.error();

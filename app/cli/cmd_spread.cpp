@@ -63,7 +63,8 @@ Result<std::vector<AtVertex>> given_in(const SpreadArguments& arguments, const s
   }
   if (texts.empty()) {
     return Error{ErrorCode::kBadInput,
-                 "nothing was given; give some with " + option + ", or " + option + "s FILE"};
+                 "nothing was given",
+                 {"give some with " + option + ", or " + option + "s FILE"}};
   }
   std::vector<AtVertex> out;
   for (const auto& [text, where] : texts) {
@@ -86,9 +87,10 @@ Result<std::vector<AtVertex>> given_in(const SpreadArguments& arguments, const s
     }
     if (fine && parts == numbers + 1) continue;
     return Error{ErrorCode::kBadInput,
-                 where + ": '" + one_line(text) + "' is none; write " +
-                     (numbers == 2 ? "VERTEX:X:Y, along e1 and e2 of the vertex" : "VERTEX:VALUE") +
-                     (where == option ? "" : ", or the numbers with blanks between")};
+                 where + ": '" + one_line(text) + "' is none",
+                 {std::string("write ") +
+                  (numbers == 2 ? "VERTEX:X:Y, along e1 and e2 of the vertex" : "VERTEX:VALUE") +
+                  (where == option ? "" : ", or the numbers with blanks between")}};
   }
   return out;
 }
@@ -208,11 +210,7 @@ Result<void> write_arrows(const std::string& path, const SpreadWork& work,
 void add_spread_options(CLI::App& command, SpreadArguments& arguments, const char* option,
                         const char* form, const char* help, const char* what, bool pictures) {
   add_model_option(command, arguments.model, arguments.settings)->required();
-  command.add_option(option, arguments.given, help)
-      ->type_name(form)
-      ->expected(1)
-      ->allow_extra_args(false)
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  may_repeat(command.add_option(option, arguments.given, help), form);
   command
       .add_option(std::string(option) + "s", arguments.file,
                   std::string("a file of them, one a line: ") + form +

@@ -137,9 +137,8 @@ Result<std::vector<double>> parse_factors(const std::string& text) {
     }
   }
   return Error{ErrorCode::kBadInput,
-               "--factors: '" + one_line(text) +
-                   "' is no range of time factors; write LEAST:MOST:COUNT such as 0.1:100:13, "
-                   "within 1e-6 to 1e6, COUNT 2 to 200"};
+               "--factors: '" + one_line(text) + "' is no range of time factors",
+               {"write LEAST:MOST:COUNT such as 0.1:100:13, within 1e-6 to 1e6, COUNT 2 to 200"}};
 }
 
 Result<SourceSet> sources_on(const Model& model, const std::vector<Source>& named,

@@ -30,7 +30,8 @@ Result<double> scale_in(const std::string& text) {
   const auto scale = number_in<double>(text);
   if (scale && *scale >= kMinScale && *scale <= kMaxScale) return *scale;
   return Error{ErrorCode::kBadInput,
-               "'" + one_line(text) + "' is no scale of panels; give 0.5 to 4, such as 2"};
+               "'" + one_line(text) + "' is no scale of panels",
+               {"give 0.5 to 4, such as 2"}};
 }
 
 Result<std::vector<SourceSpec>> sources_in(const SourceArguments& arguments) {
@@ -52,26 +53,29 @@ bool is_headless(const ViewArguments& a) {
 Result<void> check(const ViewArguments& a) {
   if (!a.picture.turntable.empty()) {
     return Error{ErrorCode::kBadInput,
-                 "--turntable: the viewer turns the model live (key p); use geotherm render"};
+                 "--turntable: the viewer turns the model live (key p)",
+                 {"use geotherm render"}};
   }
   if (!a.replay.empty() && !a.script.empty()) {
     return Error{ErrorCode::kBadInput,
-                 "--script and --replay: give one of them; --replay writes no files of its own"};
+                 "--script and --replay: give one of them",
+                 {"--replay writes no files of its own"}};
   }
   if (a.model == kStandardInput) {
     return Error{ErrorCode::kBadInput,
                  "the viewer reads a model again when its settings change, which standard input "
-                 "cannot be; write it to a file and name that"};
+                 "cannot be",
+                 {"write it to a file and name that"}};
   }
   if (is_headless(a) && a.model.empty() && a.script.empty() && a.replay.empty()) {
     return Error{ErrorCode::kBadInput,
-                 "there is nothing to do without a window; name a model, or commands with "
-                 "--script FILE or --replay FILE"};
+                 "there is nothing to do without a window",
+                 {"name a model, or commands with --script FILE or --replay FILE"}};
   }
   if (!a.output.empty() && io::file_extension(a.output) != ".png" && !figure_format(a.output)) {
     return Error{ErrorCode::kBadInput,
-                 "--output: " + one_line(a.output) +
-                     ": pictures are written as .png, .pdf or .svg; give -o FILE.png"};
+                 "--output: " + one_line(a.output) + ": pictures are written as .png, .pdf or .svg",
+                 {"give -o FILE.png"}};
   }
   return {};
 }
@@ -109,8 +113,8 @@ Result<CommandOutput> run_headless(const ViewArguments& arguments,
   painter.draw = [&](const PictureData& data, const PictureSettings& settings, bool panels,
                      DrawAs as) -> Result<DrawnPicture> {
     if (panels) {
-      return Error{ErrorCode::kBadInput,
-                   "there are no panels without a window; leave out 'panels'"};
+      return Error{
+          ErrorCode::kBadInput, "there are no panels without a window", {"leave out 'panels'"}};
     }
     PictureSettings mine = settings;
     mine.device = arguments.picture.device;

@@ -27,7 +27,8 @@ Result<void> check_film(const RenderArguments& arguments, const PictureSettings&
   if (!arguments.fps.empty()) {
     if (!is_film(arguments.output)) {
       return Error{ErrorCode::kBadInput,
-                   "--fps is for films; give -o FILE.mp4 or -o FILE.gif, or leave it out"};
+                   "--fps is for films",
+                   {"give -o FILE.mp4 or -o FILE.gif, or leave it out"}};
     }
     const auto rate = whole_between(arguments.fps, 1, gif ? kMaxGifRate : kMaxRate,
                                     "is no number of pictures a second");
@@ -35,9 +36,10 @@ Result<void> check_film(const RenderArguments& arguments, const PictureSettings&
   }
   if (!is_film(arguments.output)) return {};
   if (settings.background == PictureBackground::kTransparent) {
-    return Error{ErrorCode::kBadInput,
-                 "--background transparent: films have no transparency; choose light or dark, or "
-                 "give -o FILE.png"};
+    return Error{
+        ErrorCode::kBadInput,
+        "--background transparent: films have no transparency",
+        {"choose ", SettingHint{"background", {"light", "dark"}}, ", or give -o FILE.png"}};
   }
   if (auto there = find_ffmpeg(); !there) return about("--output", there.error());
   return {};

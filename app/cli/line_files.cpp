@@ -14,24 +14,22 @@ bool is_picture(const std::string& path) { return io::file_extension(path) == ".
 
 Result<void> check_line_path(const std::string& path) {
   if (path == "-" || is_picture(path) || check_polyline_path(path)) return {};
-  return Error{ErrorCode::kNotAvailable, "--output: " + one_line(path) + ": unknown extension '" +
-                                             one_line(io::file_extension(path)) +
-                                             "'; there are .obj .csv .vtp .svg"};
+  return Error{ErrorCode::kNotAvailable,
+               "--output: " + one_line(path) + ": unknown extension '" +
+                   one_line(io::file_extension(path)) + "'",
+               {"there are .obj .csv .vtp .svg"}};
 }
 
 }  // namespace
 
 void add_line_file_options(CLI::App& command, LineFileArguments& arguments,
                            SettingArguments& settings, const std::string& what) {
-  command
-      .add_option("-o,--output", arguments.outputs,
-                  "where " + what +
-                      " go: .obj .csv .vtp, .svg (a picture), or - for CSV on standard "
-                      "output; may be repeated")
-      ->type_name("FILE")
-      ->expected(1)
-      ->allow_extra_args(false)
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  may_repeat(
+      command.add_option("-o,--output", arguments.outputs,
+                         "where " + what +
+                             " go: .obj .csv .vtp, .svg (a picture), or - for CSV on standard "
+                             "output; may be repeated"),
+      "FILE");
   command.add_option("--json", arguments.json, "every figure as JSON; - is standard output")
       ->type_name("FILE");
   add_line_picture_options(command, settings);

@@ -74,16 +74,18 @@ Result<NpyType> number_type(const SolveArguments& arguments) {
   if (!type) return about("--dtype", type.error());
   if (arguments.float32 && *type != NpyType::kFloat32) {
     return Error{ErrorCode::kBadInput,
-                 "--dtype " + arguments.dtype + " and --float32 disagree; leave one of them out"};
+                 "--dtype " + arguments.dtype + " and --float32 disagree",
+                 {"leave one of them out"}};
   }
   return *type;
 }
 
 Result<void> refuse_single_options(const SolveArguments& arguments, const std::string& option) {
   const auto refuse = [&option](const std::string& other) {
-    return Error{ErrorCode::kBadInput,
-                 other + " is about one source set, and " + option +
-                     " solves for each source by itself; leave one of them out"};
+    return Error{
+        ErrorCode::kBadInput,
+        other + " is about one source set, and " + option + " solves for each source by itself",
+        {"leave one of them out"}};
   };
   if (arguments.check.check) return refuse("--check");
   if (!arguments.fields.empty()) return refuse("--fields");
@@ -98,10 +100,10 @@ Result<std::vector<Index>> vertices_of_each(const EachSource& each, const std::s
     const bool is_vertex = set.edges.empty() && set.segments.empty() && set.cell_points.empty() &&
                            set.points.size() == 1 && set.points.front().is_vertex();
     if (!is_vertex || !set.offsets.empty()) {
-      return Error{ErrorCode::kBadInput, option + " " + std::to_string(vertices.size() + 1) +
-                                             (is_vertex ? " has an offset" : " is no vertex") +
-                                             "; distances are between vertices, such as 3,99,512 "
-                                             "or random:20"};
+      return Error{ErrorCode::kBadInput,
+                   option + " " + std::to_string(vertices.size() + 1) +
+                       (is_vertex ? " has an offset" : " is no vertex"),
+                   {"distances are between vertices, such as 3,99,512 or random:20"}};
     }
     vertices.push_back(set.points.front().vertex);
   }
@@ -196,8 +198,8 @@ Result<void> check_room(const std::string& path, double bytes) {
   if (!room || bytes <= static_cast<double>(*room)) return {};
   return Error{ErrorCode::kBadFile,
                one_line(path) + ": the file would take " + bytes_in_words(bytes) + ", and " +
-                   bytes_in_words(static_cast<double>(*room)) +
-                   " are free there; take fewer rows, --dtype float32 or another place"};
+                   bytes_in_words(static_cast<double>(*room)) + " are free there",
+               {"take fewer rows, --dtype float32 or another place"}};
 }
 
 namespace {

@@ -28,69 +28,6 @@ void add_quiet_option(CLI::App& command, bool& quiet) {
   command.add_flag("--quiet", quiet, "no progress bar, no estimate of time");
 }
 
-void add_source_options(CLI::App& command, SourceArguments& arguments) {
-  command
-      .add_option("-s,--source", arguments.sources,
-                  "17 or 3,99,512 (vertex ids from 0), curve:V1,V2,... (a line of vertices, joined "
-                  "along edges), curve:face:ID:b0:b1:b2,... (a line of points, joined across "
-                  "faces), random:K[:SEED], boundary, face:ID:b0:b1:b2, xyz:x:y:z, "
-                  "sample:i:j[:k] (of a grid); points may "
-                  "end in @OFFSET, the distance there; may be "
-                  "repeated, all are one source set")
-      ->type_name("SOURCES")
-      ->expected(1)
-      ->allow_extra_args(false)
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
-      ->group("Sources");
-  command
-      .add_option("--source-file", arguments.file,
-                  "one source a line: a vertex id, face:..., xyz:..., or x y z; # begins a comment")
-      ->type_name("FILE")
-      ->group("Sources");
-  command
-      .add_flag("--curve", arguments.curve,
-                "the ids of the source file are a polyline; all of it is a source")
-      ->group("Sources");
-}
-
-void protect_inputs(const std::string& model, const SourceArguments& sources, Outputs& outputs) {
-  if (!is_bundled(model) && model != kStandardInput) outputs.protect(model, "the model itself");
-  outputs.protect(sources.file, "the source file");
-}
-
-Result<std::vector<Source>> some_sources_of(const SourceArguments& arguments) {
-  auto named = sources_of(arguments);
-  if (!named || !named->empty()) return named;
-  return Error{ErrorCode::kBadInput,
-               "no source was given; say where distance is 0, such as -s 17 or -s boundary"};
-}
-
-Result<std::vector<Source>> sources_of(const SourceArguments& arguments) {
-  if (arguments.curve && arguments.file.empty()) {
-    return Error{ErrorCode::kBadInput,
-                 "--curve needs the vertex ids of the curve; add --source-file FILE"};
-  }
-  std::vector<Source> sources;
-  for (const std::string& text : arguments.sources) {
-    auto spec = parse_source(text);
-    if (!spec) return about("--source", spec.error());
-    sources.push_back({*std::move(spec), "--source " + shortened(text), ErrorCode::kBadInput});
-  }
-  if (arguments.file.empty()) return sources;
-  auto listed = read_source_file(arguments.file, arguments.curve);
-  if (!listed) return listed.error();
-  for (Source& source : *listed) sources.push_back(std::move(source));
-  return sources;
-}
-
-std::vector<std::string> typed_sources(const SourceArguments& arguments) {
-  std::vector<std::string> typed = arguments.sources;
-  if (!arguments.file.empty()) {
-    typed.push_back((arguments.curve ? "curve of " : "file ") + arguments.file);
-  }
-  return typed;
-}
-
 namespace {
 
 const char* heading_of(SettingGroup group) {
@@ -192,46 +129,15 @@ void note_unused_settings(const SettingArguments& arguments, const MethodOptions
       if (typed->second != setting.get(usual)) unused.push_back("--" + std::string(setting.name));
     }
     if (unused.empty()) return;
-    warnings.push_back({"the method " + to_text(options.method) + " does not use " +
-                        joined(unused) + "; these are options of --method heat"});
+    warnings.push_back({"the method " + to_text(options.method) + " does not use " + joined(unused),
+                        {"these are options of ", SettingHint{"method", {"heat"}}}});
     return;
   }
   const auto factor = arguments.texts.find("time-factor");
   if (options.time_step.rule != TimeRule::kAbsolute || factor == arguments.texts.end()) return;
   warnings.push_back({"--time-factor " + factor->second + " is not used: --time-step " +
-                      arguments.texts.find("time-step")->second +
-                      " is the time itself; leave one of them out"});
-}
-
-void add_max_distance_option(CLI::App& command, std::string& text) {
-  command
-      .add_option("--max-distance", text,
-                  "asks for no more than this far (model units): farther is infinite, and waves, "
-                  "fast marching and exact windows spend no time there")
-      ->type_name("R")
-      ->group("Reach");
-}
-
-void add_target_option(CLI::App& command, std::vector<std::string>& texts,
-                       const std::string& what) {
-  command
-      .add_option("--target", texts,
-                  "asks for " + what +
-                      " of these vertices alone, given as sources are; may be repeated; the "
-                      "methods but heat end when they have them")
-      ->type_name("VERTICES")
-      ->expected(1)
-      ->allow_extra_args(false)
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
-      ->group("Reach");
-}
-
-Result<double> max_distance_in(const std::string& text) {
-  if (text.empty()) return kUnreached;
-  const auto most = number_in<double>(text);
-  if (most && *most > 0 && std::isfinite(*most)) return *most;
-  return Error{ErrorCode::kBadInput, "--max-distance: '" + one_line(text) +
-                                         "' is no length above 0; give one in model units"};
+                          arguments.texts.find("time-step")->second + " is the time itself",
+                      {"leave one of them out"}});
 }
 
 void add_check_options(CLI::App& command, CheckArguments& arguments) {
@@ -263,12 +169,13 @@ Result<CheckSettings> check_settings(const CheckArguments& arguments) {
                  "--on-poor: '" + one_line(arguments.on_poor) + "' is none of keep, better, fail"};
   }
   if (arguments.no_check && arguments.check) {
-    return Error{ErrorCode::kBadInput,
-                 "--check and --no-check were both given; leave one of them out"};
+    return Error{
+        ErrorCode::kBadInput, "--check and --no-check were both given", {"leave one of them out"}};
   }
   if (arguments.no_check && settings.on_poor != OnPoor::kKeep) {
     return Error{ErrorCode::kBadInput,
-                 "--on-poor " + arguments.on_poor + " needs the check; leave --no-check out"};
+                 "--on-poor " + arguments.on_poor + " needs the check",
+                 {"leave --no-check out"}};
   }
   if (arguments.check) settings.against = Check::kAuto;
   if (arguments.no_check) settings.against = Check::kOff;
@@ -277,8 +184,10 @@ Result<CheckSettings> check_settings(const CheckArguments& arguments) {
 
 Result<void> refuse_better(const CheckSettings& settings, const std::string& what) {
   if (settings.on_poor != OnPoor::kBetter) return {};
-  return Error{ErrorCode::kBadInput, "--on-poor better may answer by another method, and " + what +
-                                         " is about the heat u; leave one of them out"};
+  return Error{
+      ErrorCode::kBadInput,
+      "--on-poor better may answer by another method, and " + what + " is about the heat u",
+      {"leave one of them out"}};
 }
 
 std::string accuracy_note(const std::string& json, const Outputs& outputs, bool quiet,
@@ -297,8 +206,8 @@ Result<void> choose_colour_map(bool typed, std::span<const std::string> colour_m
   if (!typed && !colour_maps.empty()) chosen = colour_maps.front();
   if (std::ranges::count(colour_maps, chosen) > 0) return {};
   return Error{ErrorCode::kBadInput,
-               "--colour-map: there is no colour map '" + one_line(chosen) + "'; " +
-                   known_words(chosen, {colour_maps.begin(), colour_maps.end()})};
+               "--colour-map: there is no colour map '" + one_line(chosen) + "'",
+               {known_words(chosen, {colour_maps.begin(), colour_maps.end()})}};
 }
 
 /// A logarithmic scale has no 0.
@@ -306,9 +215,10 @@ Result<void> check_colour_scale(const PictureSettings& picture) {
   if (picture.colour_scale != ColourScale::kLog) return {};
   for (const std::optional<double>& end : {picture.range_min, picture.range_max}) {
     if (!end || *end > 0) continue;
-    return Error{ErrorCode::kBadInput, "--colour-scale log: --range " + range_text(picture) +
-                                           " has an end that is not above 0; give ends above 0, "
-                                           "such as 0.01:1, or leave them out"};
+    return Error{
+        ErrorCode::kBadInput,
+        "--colour-scale log: --range " + range_text(picture) + " has an end that is not above 0",
+        {"give ends above 0, such as 0.01:1, or leave them out"}};
   }
   return {};
 }
@@ -321,7 +231,8 @@ Result<void> choose_fit(bool typed, const PictureSettings& picture, CameraSettin
   }
   if (!camera.centre || camera.fit != PictureFit::kTight) return {};
   return Error{ErrorCode::kBadInput,
-               "--centre: a tight fit decides itself what is in the middle; give --fit sphere"};
+               "--centre: a tight fit decides itself what is in the middle",
+               {"give ", SettingHint{"fit", {"sphere"}}}};
 }
 
 }  // namespace

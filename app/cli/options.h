@@ -79,6 +79,12 @@ Result<std::vector<Source>> sources_of(const SourceArguments& arguments);
 /// How the sources were given, for the file of a picture.
 std::vector<std::string> typed_sources(const SourceArguments& arguments);
 
+/// One point that an option names. Errors: kBadInput.
+Result<Source> single_point(const std::string& text, const std::string& option);
+
+/// The option may be given several times, each time with one value.
+CLI::Option* may_repeat(CLI::Option* option, const std::string& value_name);
+
 /// How distances are to be checked, as typed.
 struct CheckArguments {
   bool check = false;

@@ -35,13 +35,16 @@ Result<void> draw_field(const std::string& path, const Model& model,
   }
   const std::string name = io::printable(path);
   if (settings.colour_scale == ColourScale::kDiverging && !data.is_signed) {
-    return Error{ErrorCode::kBadInput, "--colour-scale diverging: the values of " + name +
-                                           " do not have both signs; choose linear"};
+    return Error{ErrorCode::kBadInput,
+                 "--colour-scale diverging: the values of " + name + " do not have both signs",
+                 {"choose ", SettingHint{"colour-scale", {"linear"}}}};
   }
   if (settings.colour_scale == ColourScale::kLog && data.smallest_value <= 0) {
-    return Error{ErrorCode::kBadInput, "--colour-scale log: " + name +
-                                           " has values that are not above 0 and have no "
-                                           "logarithm; choose linear"};
+    return Error{ErrorCode::kBadInput,
+                 "--colour-scale log: " + name +
+                     " has values that are not above 0 and have no "
+                     "logarithm",
+                 {"choose ", SettingHint{"colour-scale", {"linear"}}}};
   }
   return {};
 }
@@ -171,32 +174,37 @@ Result<void> check_figure(const PictureSettings& settings, const MethodOptions& 
   if (settings.colour_scale == ColourScale::kDiverging && !is_error) {
     return Error{ErrorCode::kBadInput,
                  "--colour-scale diverging is for differences, and --view " +
-                     geotherm::to_text(settings.view) +
-                     " shows none; choose --view exact-error, or another scale"};
+                     geotherm::to_text(settings.view) + " shows none",
+                 {"choose ", SettingHint{"view", {"exact-error"}}, ", or another scale"}};
   }
   if (settings.colour_scale == ColourScale::kLog && !maps_values(settings.view)) {
-    return Error{ErrorCode::kBadInput, "--colour-scale log is for distances, which --view " +
-                                           geotherm::to_text(settings.view) +
-                                           " does not show in colours; choose --view contours"};
+    return Error{ErrorCode::kBadInput,
+                 "--colour-scale log is for distances, which --view " +
+                     geotherm::to_text(settings.view) + " does not show in colours",
+                 {"choose ", SettingHint{"view", {"contours"}}}};
   }
   if (settings.colour_scale == ColourScale::kLog && settings.view == View::kExactError) {
     return Error{ErrorCode::kBadInput,
                  "--colour-scale log: the errors of --view exact-error have both signs and no "
-                 "logarithm; choose diverging, or another view"};
+                 "logarithm",
+                 {"choose ", SettingHint{"colour-scale", {"diverging"}}, ", or another view"}};
   }
   if (!is_error && !settings.line_values.empty() && settings.line_values.front() <= 0) {
-    return Error{ErrorCode::kBadInput, "--values: " + number_text(settings.line_values.front()) +
-                                           " is no distance of an isoline; give numbers above 0, "
-                                           "in model units, such as 0.1,0.2,0.5"};
+    return Error{
+        ErrorCode::kBadInput,
+        "--values: " + number_text(settings.line_values.front()) + " is no distance of an isoline",
+        {"give numbers above 0, in model units, such as 0.1,0.2,0.5"}};
   }
   if (settings.line_spacing && !settings.line_values.empty()) {
     return Error{ErrorCode::kBadInput,
-                 "--spacing and --values both say where isolines are; leave one of them out"};
+                 "--spacing and --values both say where isolines are",
+                 {"leave one of them out"}};
   }
   const bool heat = settings.path_kind == PathKind::kHeat;
   if (heat && !arguments.targets.empty() && options.method != MethodKind::kHeat) {
-    return Error{ErrorCode::kBadInput, "--path-kind heat: --method " + to_text(options.method) +
-                                           " has no heat to follow; choose geodesic or distance"};
+    return Error{ErrorCode::kBadInput,
+                 "--path-kind heat: --method " + to_text(options.method) + " has no heat to follow",
+                 {"choose ", SettingHint{"path-kind", {"geodesic", "distance"}}}};
   }
   return {};
 }
@@ -210,13 +218,13 @@ Result<void> check_field(const RenderArguments& arguments, View view, bool has_s
   if (!arguments.sequence.frames.empty()) others.emplace_back("--sequence");
   if (!others.empty()) {
     return Error{ErrorCode::kBadInput,
-                 "--field draws values that are there already, not those of " + joined(others) +
-                     "; leave one of them out"};
+                 "--field draws values that are there already, not those of " + joined(others),
+                 {"leave one of them out"}};
   }
   if (view == View::kContours) return {};
-  return Error{ErrorCode::kBadInput, "--field: --view " + geotherm::to_text(view) +
-                                         " does not show values of vertices; choose --view "
-                                         "contours"};
+  return Error{ErrorCode::kBadInput,
+               "--field: --view " + geotherm::to_text(view) + " does not show values of vertices",
+               {"choose ", SettingHint{"view", {"contours"}}}};
 }
 
 Result<PictureData> prepare_picture(const RenderArguments& arguments, const ViewerState& asked,
@@ -275,9 +283,10 @@ Result<PictureData> prepare_picture(const RenderArguments& arguments, const View
   if (view == View::kExactError) {
     const AccuracyReport& report = *solved->error;
     if (report.values.empty()) {
-      return Error{ErrorCode::kBadInput, "--view exact-error: there is nothing to hold --method " +
-                                             to_text(options.method) + " against: " + told(report) +
-                                             "; choose another view"};
+      return Error{ErrorCode::kBadInput,
+                   "--view exact-error: there is nothing to hold --method " +
+                       to_text(options.method) + " against: " + told(report),
+                   {"choose another view"}};
     }
     add_error(data, report.values, error_title(report));
   }

@@ -65,7 +65,8 @@ Result<SharedFile> SharedFile::open(const std::string& path, std::string_view he
     if (!ranks.is_first()) return {};
     if (!ranks.alone() && path == "-") {
       return Error{ErrorCode::kBadInput,
-                   "several processes cannot share standard output; give -o FILE.npy"};
+                   "several processes cannot share standard output",
+                   {"give -o FILE.npy"}};
     }
     auto file = part ? GrowingFile::open_part(path) : GrowingFile::open(path);
     if (!file) return file.error();
@@ -189,7 +190,8 @@ Result<RowsFile> RowsFile::open(const std::string& path, ManySources& work, NpyT
   const auto columns = static_cast<std::uint64_t>(out.columns_);
   if (work.reach.sparse && !work.ranks.alone()) {
     return Error{ErrorCode::kBadInput,
-                 one_line(path) + ": sparse rows are written by one process; give -o FILE.npy"};
+                 one_line(path) + ": sparse rows are written by one process",
+                 {"give -o FILE.npy"}};
   }
   if (work.reach.sparse) {
     auto file = SparseRows::open(path, columns, type);

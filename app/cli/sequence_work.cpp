@@ -149,11 +149,12 @@ void add_sequence_options(CLI::App& command, SequenceArguments& arguments) {
 Result<void> refuse_with_sequence(const SequenceArguments& sequence, const CheckArguments& check) {
   if (sequence.frames.empty()) {
     if (!sequence.skip_bad) return {};
-    return Error{ErrorCode::kBadInput, "--skip-bad is about --sequence; leave it out"};
+    return Error{ErrorCode::kBadInput, "--skip-bad is about --sequence", {"leave it out"}};
   }
   if (sequence.skip_bad && check.on_poor == "fail") {
     return Error{ErrorCode::kBadInput,
-                 "--on-poor fail ends the run and --skip-bad goes on; leave one of them out"};
+                 "--on-poor fail ends the run and --skip-bad goes on",
+                 {"leave one of them out"}};
   }
   return {};
 }
@@ -164,10 +165,10 @@ Result<Sequence> begin_sequence(const std::string& name, const SequenceArguments
   auto model = load_model(name, asked.reading, progress);
   if (!model) return model.error();
   if (!model->is_mesh()) {
-    return Error{ErrorCode::kBadInput, "--sequence moves the vertices of triangles, and " +
-                                           one_line(model->name) + " is read as " +
-                                           std::string(domain_name(*model)) +
-                                           "; give a mesh, or --domain triangles"};
+    return Error{ErrorCode::kBadInput,
+                 "--sequence moves the vertices of triangles, and " + one_line(model->name) +
+                     " is read as " + std::string(domain_name(*model)),
+                 {"give a mesh, or ", SettingHint{"domain", {"triangles"}}}};
   }
   auto placed = resolve_sources(sources, *model);
   if (!placed) return placed.error();

@@ -27,9 +27,10 @@ Result<std::vector<QualityField>> named_fields(const std::string& text, MethodKi
         parse_quality_field(one_line(std::string(trimmed(text.substr(from, comma - from)))));
     if (!field) return about_option(field.error());
     if (needs_heat(*field) && method != MethodKind::kHeat) {
-      return Error{ErrorCode::kBadInput, "--fields: " + to_text(*field) +
-                                             " is about the heat u, which --method " +
-                                             to_text(method) + " has not; leave it out"};
+      return Error{ErrorCode::kBadInput,
+                   "--fields: " + to_text(*field) + " is about the heat u, which --method " +
+                       to_text(method) + " has not",
+                   {"leave it out"}};
     }
     if (std::ranges::find(fields, *field) == fields.end()) fields.push_back(*field);
     from = comma + 1;
@@ -54,9 +55,9 @@ Result<WantedFields> wanted_fields(const std::string& text, MethodKind method,
   WantedFields wanted;
   if (text.empty()) return wanted;
   if (paths.empty()) {
-    return Error{
-        ErrorCode::kBadInput,
-        "--fields: they are written beside the distances; give -o FILE.ply or -o FILE.vtp"};
+    return Error{ErrorCode::kBadInput,
+                 "--fields: they are written beside the distances",
+                 {"give -o FILE.ply or -o FILE.vtp"}};
   }
   wanted.all = text == "all";
   if (wanted.all) {
@@ -81,9 +82,10 @@ Result<WantedFields> wanted_fields(const std::string& text, MethodKind method,
     const bool of_tets = io::file_extension(path) == ".vtu";
     for (const QualityField field : wanted.fields) {
       if (of_tets && is_of_triangles(field)) {
-        return Error{ErrorCode::kBadInput, "--fields: " + to_text(field) +
-                                               " is of triangles, and " + one_line(path) +
-                                               " holds tets; leave it out, or write .ply or .vtp"};
+        return Error{ErrorCode::kBadInput,
+                     "--fields: " + to_text(field) + " is of triangles, and " + one_line(path) +
+                         " holds tets",
+                     {"leave it out, or write .ply or .vtp"}};
       }
       const auto held = check_field(path, described(field));
       if (!held) return about_option(held.error());
@@ -103,7 +105,8 @@ Result<std::vector<DataField>> make_fields(const WantedFields& wanted, Answer& f
                                               : "the distances were not checked";
       if (!known && !wanted.all) {
         return Error{ErrorCode::kBadInput,
-                     "--fields: there is no error: " + why + "; leave the field error out"};
+                     "--fields: there is no error: " + why,
+                     {"leave the field error out"}};
       }
       if (!known) {
         figures.warnings.push_back({"--fields: the field error is left out: " + why});

@@ -95,7 +95,8 @@ std::vector<double> study_factors(double least, double most, int count) {
 Result<Study> sweep(const Model& model, const StudyTask& task, const Progress& progress) {
   if (!task.sources.offsets.empty()) {
     return Error{ErrorCode::kBadInput,
-                 "the heat method takes no offsets of sources; leave out what follows the @"};
+                 "the heat method takes no offsets of sources",
+                 {"leave out what follows the @"}};
   }
   Study study;
   study.reference = reference_for(MethodKind::kHeat, model.mesh->face_count());

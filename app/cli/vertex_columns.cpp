@@ -3,6 +3,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "app/cli/options.h"
 #include "app/text/text.h"
 #include "geotherm/io.h"
 #include "solver/core/text.h"
@@ -41,14 +42,11 @@ Result<void> write_rows(const std::string& path, Index vertices,
 
 void add_column_options(CLI::App& command, std::vector<std::string>& outputs, std::string& json,
                         const std::string& what, bool pictures) {
-  command
-      .add_option("-o,--output", outputs,
-                  "where " + what + " go: .csv .npy .ply" + (pictures ? ", .svg (a picture)" : "") +
-                      ", or - for CSV on standard output; may be repeated")
-      ->type_name("FILE")
-      ->expected(1)
-      ->allow_extra_args(false)
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  may_repeat(command.add_option("-o,--output", outputs,
+                                "where " + what + " go: .csv .npy .ply" +
+                                    (pictures ? ", .svg (a picture)" : "") +
+                                    ", or - for CSV on standard output; may be repeated"),
+             "FILE");
   command.add_option("--json", json, "every figure as JSON; - is standard output")
       ->type_name("FILE");
 }
@@ -61,8 +59,8 @@ Result<void> expect_columns(const std::vector<std::string>& outputs, const std::
                        (pictures && ending == ".svg");
     if (!known) {
       return Error{ErrorCode::kNotAvailable,
-                   "--output: " + one_line(path) + ": unknown extension '" + one_line(ending) +
-                       "'; there are .csv .npy .ply" + (pictures ? " .svg" : "")};
+                   "--output: " + one_line(path) + ": unknown extension '" + one_line(ending) + "'",
+                   {std::string("there are .csv .npy .ply") + (pictures ? " .svg" : "")}};
     }
     if (auto fits = expected.expect(path, "--output"); !fits) return fits;
   }

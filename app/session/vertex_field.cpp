@@ -42,16 +42,18 @@ Result<VertexField> read_vertex_field(const std::string& path, const Model& mode
   const auto vertices = static_cast<std::size_t>(model.mesh->vertex_count());
   const std::size_t rows = table->values.size() / std::max<std::size_t>(table->columns, 1);
   if (rows != vertices) {
-    return Error{ErrorCode::kBadInput, name + " has " + grouped(rows) + " values and " +
-                                           one_line(model.name) + " " + grouped(vertices) +
-                                           " vertices; give one a vertex"};
+    return Error{ErrorCode::kBadInput,
+                 name + " has " + grouped(rows) + " values and " + one_line(model.name) + " " +
+                     grouped(vertices) + " vertices",
+                 {"give one a vertex"}};
   }
   for (const std::size_t known : {std::size_t{1}, kVectors, kLogMap, kTransported}) {
     if (table->columns == known) return VertexField{known, std::move(table->values)};
   }
-  return Error{ErrorCode::kBadInput,
-               name + " has " + grouped(table->columns) + " columns; give 1 (values), 3 or " +
-                   std::to_string(kTransported) + " (vectors) or 4 (a log map)"};
+  return Error{
+      ErrorCode::kBadInput,
+      name + " has " + grouped(table->columns) + " columns",
+      {"give 1 (values), 3 or " + std::to_string(kTransported) + " (vectors) or 4 (a log map)"}};
 }
 
 Result<void> show_field(PictureData& data, const TriangleMesh& mesh, const VertexField& field) {

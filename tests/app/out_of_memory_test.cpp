@@ -18,7 +18,7 @@ namespace {
 using namespace geotherm::app;
 
 /// How the work in a process with little memory ended.
-enum Ending { kDone, kRefused, kThrown, kWithoutCure, kOther };
+enum Ending { kDone, kRefused, kThrown, kWithoutHint, kOther };
 
 /// A stack that cannot grow ends the process, which nothing could turn into an error.
 void grow_stack() {
@@ -67,9 +67,9 @@ Ending with_memory(std::size_t megabytes, const Work& work) {
   return WIFEXITED(status) ? static_cast<Ending>(WEXITSTATUS(status)) : kOther;
 }
 
-Ending ending_of(ErrorCode code, const std::string& message) {
+Ending ending_of(ErrorCode code, const Hint& hint) {
   if (code != ErrorCode::kOutOfMemory) return kOther;
-  return message.find("; ") == std::string::npos ? kWithoutCure : kRefused;
+  return hint.empty() ? kWithoutHint : kRefused;
 }
 
 /// A model that leaves little free memory behind in the process when it is made.
@@ -101,19 +101,19 @@ class LittleMemory : public testing::TestWithParam<std::string> {
   Model model = tidy_model();
 };
 
-TEST_P(LittleMemory, IsAnErrorOfTheLibraryWithACure) {
+TEST_P(LittleMemory, IsAnErrorOfTheLibraryWithAHint) {
   HeatOptions options;
   options.backend = GetParam();
   options.threads = 1;
   expect_refusals_then_done([&] {
     const auto method = HeatMethod::build(model.mesh, options);
-    if (!method) return ending_of(method.error().code, sentence(method.error()));
+    if (!method) return ending_of(method.error().code, method.error().hint);
     const auto result = method->solve(SourceSet::of_vertices({1}));
-    if (!result) return ending_of(result.error().code, sentence(result.error()));
+    if (!result) return ending_of(result.error().code, result.error().hint);
     HeatOptions other = options;
     other.time_step.factor = 2;
     const auto changed = method->with(other);
-    return changed ? kDone : ending_of(changed.error().code, sentence(changed.error()));
+    return changed ? kDone : ending_of(changed.error().code, changed.error().hint);
   });
 }
 
@@ -132,7 +132,7 @@ TEST_P(LittleMemory, IsARowOfTheComparison) {
     const CompareRow& row = rows->front();
     if (row.status == "ok") return kDone;
     const bool memory = row.status == "out of memory";
-    return ending_of(memory ? ErrorCode::kOutOfMemory : ErrorCode::kCancelled, sentence(row.note));
+    return ending_of(memory ? ErrorCode::kOutOfMemory : ErrorCode::kCancelled, row.note.hint);
   });
 }
 

@@ -96,6 +96,20 @@ void expect_read_back() {
   for (const std::string& name : all_names<Enum>()) EXPECT_EQ(to_text(*parse<Enum>(name)), name);
 }
 
+TEST(PictureOptions, HintAtASettingByItsNameAndValue) {
+  SettingArguments typed;
+  typed.texts = {{"centre", "0:0:0"}, {"fit", "tight"}};
+  const auto settings = picture_settings(typed, {}, kMaps);
+  ASSERT_FALSE(settings);
+  EXPECT_EQ(settings_of(settings.error().hint), (std::vector<SettingHint>{{"fit", {"sphere"}}}));
+
+  typed.texts = {{"method", "exact"}, {"boundary", "dirichlet"}};
+  std::vector<Warning> warnings;
+  app::note_unused_settings(typed, app::settings_in(typed)->options, warnings);
+  ASSERT_EQ(warnings.size(), 1U);
+  EXPECT_EQ(settings_of(warnings[0].hint), (std::vector<SettingHint>{{"method", {"heat"}}}));
+}
+
 TEST(PictureText, OfSliceAndPeelReadsBack) {
   for (const char* text : {"off", "x", "-z", "1:0.5:-2"}) {
     PictureSettings settings;
