@@ -194,8 +194,7 @@ void remove_beyond(const PlaneInScene& cut, PictureData& data) {
   }
 }
 
-/// The values of the faces that are left; a face of the cut, which has none of its own, gets
-/// `none`.
+/// The values of the faces that are left; a face of the cut has none of its own and gets `none`.
 template <class Value>
 std::vector<Value> left_of(const std::vector<Value>& all, const std::vector<Index>& origin,
                            const Value& none) {

@@ -55,8 +55,7 @@ std::vector<LinePiece> line_pieces(std::span<const glm::vec3> points) {
 
 namespace {
 
-/// How far, in pixels, a line may leave its points: nobody sees it, and antialiasing hides the
-/// rest.
+/// How far, in pixels, a line may leave its points: antialiasing hides it.
 constexpr float kTolerance = 0.2F;
 constexpr std::size_t kLongestRun = 256;
 
