@@ -19,7 +19,8 @@
 namespace geotherm::test {
 namespace {
 
-/// Of the largest distance: several sources are solved as one block, which rounds otherwise.
+/// The tolerance is a share of the largest distance: several sources are solved as one block, which
+/// rounds otherwise.
 constexpr double kRoundOff = 1e-12;
 
 TEST_F(Program, EachWritesTheRowsOfSingleSolvesInTheOrderOfTheSources) {

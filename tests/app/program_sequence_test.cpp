@@ -18,7 +18,8 @@ namespace geotherm::test {
 namespace {
 
 constexpr std::size_t kFrames = 4;
-/// Of the largest distance: parts of the frame before may be used, which rounds otherwise.
+/// The tolerance is a share of the largest distance: parts of the frame before may be used, which
+/// rounds otherwise.
 constexpr double kRoundOffOfFrames = 1e-9;
 
 class Sequence : public Program {

@@ -12,7 +12,7 @@
 namespace geotherm::test {
 namespace {
 
-// Of the largest distance: what is promised.
+// The tolerance is a share of the largest distance: what is promised.
 constexpr double kDirect = 1e-9;
 constexpr double kIterative = 1e-6;
 

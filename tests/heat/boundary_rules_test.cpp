@@ -10,8 +10,8 @@
 namespace geotherm::test {
 namespace {
 
-// Of the largest distance: rules change the heat beside the border, by more than round-off and by
-// less than the few edges over which heat reaches.
+// The bound is a share of the largest distance: rules change the heat beside the border, by
+// more than round-off and by less than the few edges over which heat reaches.
 constexpr double kDiffers = 1e-3;
 constexpr double kAtMost = 0.15;
 // What a rule may do to distances that no border is near.

@@ -11,7 +11,8 @@
 namespace geotherm::test {
 namespace {
 
-// Of the largest distance. An iterative backend solves different systems to 1e-13 in the residual.
+// The tolerance is a share of the largest distance. An iterative backend solves different systems
+// to 1e-13 in the residual.
 constexpr double kDirect = 1e-9;
 constexpr double kIterative = 1e-6;
 // A row replaced by a number leaves that row's residual, one of n terms of like size.

@@ -16,7 +16,8 @@ namespace {
 // How much worse than the method as published the default may be, in mean or largest error.
 constexpr double kWorse = 1.1;
 
-// Of the largest distance: more than this in the mean is no longer that distance.
+// The bound is a share of the largest distance: more than this in the mean is no longer that
+// distance.
 constexpr double kExtreme = 0.15;
 
 struct Errors {
