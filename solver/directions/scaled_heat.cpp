@@ -62,7 +62,8 @@ ScaledHeat::ScaledHeat(std::span<const Link> links, std::span<const double> mass
   start_.assign(row_.size() + 1, 0);
   const auto for_each = [&](auto&& take) {
     for (const Link& link : links) {
-      if (link.from == link.to || place_[link.from] == kNoIndex) continue;
+      if (link.from == link.to) continue;
+      if (place_[link.from] == kNoIndex || place_[link.to] == kNoIndex) continue;
       const Complex turn = turns ? Complex(link.cosine, link.sine) : Complex(1);
       take(link.from, link.to, -t * link.weight * turn);
       take(link.to, link.from, -t * link.weight * std::conj(turn));
