@@ -18,7 +18,8 @@ constexpr Index kDirect = 600;
 constexpr double kDamping = 0.66;
 
 /// Joins each unknown with the neighbour behind it of the strongest negative coupling that is still
-/// alone. Returns how many there are then.
+/// alone; where none is, with what the strongest of the others is joined to: coarse matrices have
+/// hubs, whose many neighbours would stay alone. Returns how many there are then.
 Index join_pairs(const LowerMatrix& matrix, std::vector<Index>& joined) {
   constexpr double kWeak = 0.02;  // of the diagonal: not worth joining
   joined.assign(static_cast<std::size_t>(matrix.size()), kNoIndex);
@@ -26,13 +27,19 @@ Index join_pairs(const LowerMatrix& matrix, std::vector<Index>& joined) {
   for (Index j = 0; j < matrix.size(); ++j) {
     if (joined[j] != kNoIndex) continue;
     const double diagonal = matrix.value[static_cast<std::size_t>(matrix.start[j])];
-    double strongest = kWeak * diagonal;
-    Index partner = kNoIndex;
+    double alone = kWeak * diagonal, strongest = alone;
+    Index partner = kNoIndex, other = kNoIndex;
     for (auto e = static_cast<std::size_t>(matrix.start[j]) + 1;
          e < static_cast<std::size_t>(matrix.start[j + 1]); ++e) {
-      if (joined[matrix.row[e]] != kNoIndex || !(-matrix.value[e] > strongest)) continue;
-      strongest = -matrix.value[e];
-      partner = matrix.row[e];
+      const Index i = matrix.row[e];
+      double& least = joined[i] == kNoIndex ? alone : strongest;
+      if (!(-matrix.value[e] > least)) continue;
+      least = -matrix.value[e];
+      (joined[i] == kNoIndex ? partner : other) = i;
+    }
+    if (partner == kNoIndex && other != kNoIndex) {
+      joined[j] = joined[other];
+      continue;
     }
     if (partner != kNoIndex) joined[partner] = count;
     joined[j] = count++;
