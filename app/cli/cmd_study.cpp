@@ -190,9 +190,9 @@ void add_study_options(CLI::App& command, StudyArguments& arguments) {
                       names_of(SettingGroup::kMethod, {"method", "time-step", "time-factor",
                                                        "constraint", "boundary"}));  // swept
   command.footer(
-      "Sweeps m over both time rules, all constraint modes and, where the surface has a border, "
-      "the boundary rules; each answer is held against exact distances, or wavefront-fine on "
-      "large meshes.\n"
+      "Sweeps m over both time rules, all constraint modes and, where there is a border, the "
+      "boundary rules; each answer is held against exact distances, or wavefront-fine on large "
+      "meshes, and in volumes, grids and on polygons against their near-exact method.\n"
       "Examples:\n"
       "  geotherm study bunny -s 0 --svg study.svg\n"
       "  geotherm study terrain -s boundary --variant classic --json -");
@@ -213,15 +213,18 @@ Result<CommandOutput> run_study(const StudyArguments& arguments, const Progress&
   if (!named) return named.error();
   const auto model = load_model(arguments.model, asked->reading, progress);
   if (!model) return model.error();
-  if (auto surface = refuse_space(*model, "studies are"); !surface) return surface.error();
   CommandOutput out{"", model->notes, {}};
   auto sources = sources_on(*model, *named, out.warnings);
   if (!sources) return sources.error();
   task.sources = *std::move(sources);
-  const MeshReport mesh = inspect_mesh(*model->mesh);
-  task.mean_edge = mesh.mean_edge_length;
+  bool has_boundary = model->space && !model->space->boundary_vertices().empty();
+  if (!model->space) {
+    const MeshReport mesh = inspect_mesh(*model->mesh);
+    task.mean_edge = mesh.mean_edge_length;
+    has_boundary = mesh.boundary_edges > 0;
+  }
   task.boundaries = {BoundaryRule::kNeumann};
-  if (mesh.boundary_edges > 0) {
+  if (has_boundary) {
     task.boundaries.insert(task.boundaries.end(),
                            {BoundaryRule::kDirichlet, BoundaryRule::kAverage});
   }

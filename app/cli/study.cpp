@@ -63,6 +63,22 @@ class Sweeper {
   double range_ = 0;
 };
 
+/// The best distances that there are for the sources.
+Result<ReferenceAnswers> reference_on(const Model& model, const StudyTask& task,
+                                      const Progress& progress) {
+  const std::span<const SourceSet> sets(&task.sources, 1);
+  if (!model.space) {
+    return solve_reference(model.mesh, reference_for(MethodKind::kHeat, model.mesh->face_count()),
+                           sets, task.options.threads, nullptr, progress);
+  }
+  MethodOptions options;
+  options.method = model.space->rival();
+  options.threads = task.options.threads;
+  const auto rival = model.space->build_method(options, part_of(progress, 0.0, 0.3));
+  if (!rival) return rival.error();
+  return solve_reference(**rival, sets, part_of(progress, 0.3, 1.0));
+}
+
 }  // namespace
 
 std::vector<Constraint> study_constraints() {
@@ -99,11 +115,10 @@ Result<Study> sweep(const Model& model, const StudyTask& task, const Progress& p
                  {"leave out what follows the @"}};
   }
   Study study;
-  study.reference = reference_for(MethodKind::kHeat, model.mesh->face_count());
   const auto reference =
-      solve_reference(model.mesh, study.reference, {&task.sources, 1}, task.options.threads,
-                      nullptr, with_prefix(part_of(progress, 0.0, 0.1), "reference: "));
+      reference_on(model, task, with_prefix(part_of(progress, 0.0, 0.1), "reference: "));
   if (!reference) return about_model(model.name, reference.error());
+  study.reference = reference->method;
 
   study.mean_edge = task.mean_edge;
   Sweeper sweeper(model, task, reference->distances.front());
@@ -130,6 +145,10 @@ Result<Study> sweep(const Model& model, const StudyTask& task, const Progress& p
   if (std::ranges::all_of(study.rows, failed) && !study.rows.front().message.empty()) {
     return Error{ErrorCode::kNumericalFailure,
                  "no answer could be had: " + study.rows.front().message};
+  }
+  const auto measured = std::ranges::find_if_not(study.rows, failed);
+  if (model.space && measured != study.rows.end()) {  // the width of its cells
+    study.mean_edge = std::sqrt(measured->t / measured->unit_t);
   }
   return study;
 }

@@ -32,14 +32,14 @@ struct StudyTask {
   SourceSet sources;
   std::vector<double> factors;  ///< m, ascending
   std::vector<BoundaryRule> boundaries;
-  double mean_edge = 0;  ///< of the mesh (MeshReport), model units
+  double mean_edge = 0;  ///< of a triangle mesh (MeshReport), model units
 };
 
 struct Study {
   std::vector<StudyRow> rows;  ///< by rule, factor, boundary, constraint
   MethodKind reference = MethodKind::kExact;
   double largest_distance = 0;  ///< of the reference, model units
-  double mean_edge = 0;         ///< model units
+  double mean_edge = 0;         ///< model units; of a space the mean width of its cells
 };
 
 /// The constraint modes that are swept, in the order of the rows.
@@ -50,7 +50,8 @@ std::vector<Constraint> study_constraints();
 std::vector<double> study_factors(double least, double most, int count);
 
 /// Sweeps the time factor over both rules, all constraint modes and the boundary rules, each held
-/// against the best method that fits the mesh (reference_for()). What fails is a row with its
+/// against the best method that fits the mesh (reference_for()), or is there in a space
+/// (Space::rival()). What fails is a row with its
 /// message. Cost: a heat factorisation for each rule, factor and boundary rule, and a query for
 /// each row. Errors: those of the reference; kCancelled.
 Result<Study> sweep(const Model& model, const StudyTask& task, const Progress& progress = {});

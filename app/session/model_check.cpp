@@ -7,6 +7,7 @@
 #include "app/session/model_solver.h"
 #include "app/session/progress.h"
 #include "geotherm/heat_method.h"
+#include "solver/accuracy/candidates.h"
 #include "solver/core/stopwatch.h"
 
 namespace geotherm::app {
@@ -47,6 +48,28 @@ Result<std::optional<Asked>> ask_better(const MethodOptions& poor,
     done += share;
   }
   return best;
+}
+
+/// Looks for a remedy in a space: settings of heat where it is small enough, else its rival, which
+/// the answers were held against. Errors: kCancelled.
+Result<void> find_in_space(const Space& space, const CheckedAnswers& answers,
+                           const ReferenceAnswers& better, bool further, AccuracyReport& report,
+                           const Progress& progress) {
+  constexpr Index kMaxCells = 30'000, kMaxCellsFurther = 100'000;  // 3D factors grow quickly
+  std::vector<Candidate> candidates;
+  const HeatMethod* const heat = answers.method.heat();
+  if (heat != nullptr && report.figures.differently_reached == 0 &&
+      space.cell_count() <= (further ? kMaxCellsFurther : kMaxCells)) {
+    candidates =
+        space_candidates(answers.options, !space.boundary_vertices().empty(), heat->relative_t());
+  }
+  const auto make = [&](const MethodOptions& options, const Progress& part) {
+    return build_method_near(space, options, &answers.method, part);
+  };
+  auto found = diagnose_space(make, answers, better, candidates, progress);
+  if (!found) return found.error();
+  tell_found(report, *std::move(found));
+  return {};
 }
 
 }  // namespace
@@ -125,12 +148,12 @@ Result<AccuracyReport> ModelSolver::hold(const CheckedAnswers& answers, MethodKi
 Result<void> ModelSolver::find_remedy(AccuracyReport& report, const CheckedAnswers& answers,
                                       Check check, const Progress& progress) try {
   if (!report.measured) return {};
-  if (model_.space) {  // its rival is what is better than heat
-    const SettingHint rival{"method", {to_text(model_.space->rival())}};
-    if (report.is_poor()) report.advice = {"use ", rival};
-    return {};
-  }
   const bool further = is_thorough(check) && use_ == Use::kOneAnswer;
+  if (model_.space) {
+    const bool wanted = further ? report.grade >= Grade::kFair : report.is_poor();
+    if (!wanted) return {};
+    return find_in_space(*model_.space, answers, reference_->answers, further, report, progress);
+  }
   return geotherm::find_remedy(report, model_.mesh, answers, reference_->answers,
                                further ? RemedySearch::kWhereNotGood : RemedySearch::kWherePoor,
                                progress);

@@ -25,7 +25,7 @@ Result<std::shared_ptr<const DistanceMethod>> build_method_near(const Space& spa
 
 TetSpace::TetSpace(std::shared_ptr<const TetMesh> volume, TetBoundary border,
                    std::vector<char> used)
-    : Space({"tets", "tet", "tets", "volume", "border", "mean longest edge"}, std::move(used),
+    : Space({"tets", "tet", "tets", "volume", "border", "mean tet width"}, std::move(used),
             MethodKind::kFastMarching),
       volume_(std::move(volume)),
       border_(std::move(border)) {}

@@ -161,6 +161,24 @@ std::vector<Candidate> heat_candidates(const MethodOptions& options, const MeshR
   return Candidates(options, mesh, relative_t).take();
 }
 
+std::vector<Candidate> space_candidates(const MethodOptions& options, bool has_border,
+                                        double relative_t) {
+  std::vector<Candidate> out = heat_candidates(options, {}, relative_t);
+  std::erase_if(out, [](const Candidate& each) { return each.option == "laplacian"; });
+  const TimeStep& step = options.time_step;
+  if (step.rule != TimeRule::kAbsolute && step.factor != 0.5) {
+    out.push_back({"time-factor", "0.5", {}, kFactor, options});
+    out.back().options.time_step.factor = 0.5;
+  }
+  for (const BoundaryRule rule :
+       {BoundaryRule::kAuto, BoundaryRule::kAverage, BoundaryRule::kNeumann}) {
+    if (!has_border || rule == options.boundary) continue;
+    out.push_back({"boundary", to_text(rule), {}, kFactor, options});
+    out.back().options.boundary = rule;
+  }
+  return out;
+}
+
 Candidate refined_candidate(const MethodOptions& options) {
   Candidate candidate{"refine", std::to_string(options.refine + 1),
                       "the mesh is too coarse for the heat method", kRefined, options};

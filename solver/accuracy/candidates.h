@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <functional>
+#include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
+#include "geotherm/accuracy.h"
 #include "geotherm/build_method.h"
 #include "geotherm/mesh_report.h"
 
@@ -23,7 +27,25 @@ struct Candidate {
 std::vector<Candidate> heat_candidates(const MethodOptions& options, const MeshReport& mesh,
                                        double relative_t);
 
+/// The same in a space that is no triangle mesh, with the time factor 1/2 as well. `has_border`:
+/// whether there is a boundary for rules.
+std::vector<Candidate> space_candidates(const MethodOptions& options, bool has_border,
+                                        double relative_t);
+
 /// The same options on a mesh with four times the faces.
 Candidate refined_candidate(const MethodOptions& options);
+
+/// Makes a method of the space that is searched.
+using MakeMethod = std::function<Result<std::shared_ptr<const DistanceMethod>>(
+    const MethodOptions& options, const Progress& progress)>;
+
+/// As diagnose(), in any space: tries the candidates in order; where none makes the answer good,
+/// the remedy is the method of the reference, `better`. Errors: kCancelled.
+Result<Diagnosis> diagnose_space(const MakeMethod& make, const CheckedAnswers& answers,
+                                 const ReferenceAnswers& better,
+                                 std::span<const Candidate> candidates, const Progress& progress);
+
+/// Puts what a search found into a report: cause, remedy, advice and verdict.
+void tell_found(AccuracyReport& report, Diagnosis found);
 
 }  // namespace geotherm

@@ -7,6 +7,7 @@
 #include <new>
 #include <utility>
 
+#include "solver/accuracy/candidates.h"
 #include "solver/core/stopwatch.h"
 #include "solver/core/text.h"
 #include "solver/polyhedral/wave_surface.h"
@@ -183,9 +184,14 @@ Result<void> find_remedy(AccuracyReport& report, const std::shared_ptr<const Tri
                         search == RemedySearch::kWherePoor ? kMaxFacesBesides : kMaxFacesDiagnosed,
                         progress);
   if (!found) return found.error();
-  report.cause = std::move(found->cause);
-  report.remedy = std::move(found->remedy);
-  report.tried = std::move(found->tried);
+  tell_found(report, *std::move(found));
+  return {};
+}
+
+void tell_found(AccuracyReport& report, Diagnosis found) {
+  report.cause = std::move(found.cause);
+  report.remedy = std::move(found.remedy);
+  report.tried = std::move(found.tried);
   if (report.cause && !report.cause->because.empty()) {
     report.reason = " because " + report.cause->because;
   }
@@ -193,7 +199,6 @@ Result<void> find_remedy(AccuracyReport& report, const std::shared_ptr<const Tri
   report.verdict =
       to_text(report.grade) + ": " +
       figure_text(report.figures, report.figures.mean_relative, report.figures.max_of_range);
-  return {};
 }
 
 Result<AccuracyReport> check_accuracy(const std::shared_ptr<const TriangleMesh>& mesh,

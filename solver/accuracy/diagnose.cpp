@@ -24,9 +24,11 @@ constexpr double kOptionsDone = 0.5, kFacesDone = 0.8;
 /// The question, and the best answers to it so far.
 class Search {
  public:
-  Search(std::shared_ptr<const TriangleMesh> mesh, const CheckedAnswers& answers,
+  /// `mesh`: null in other spaces, where only options of the heat method are tried.
+  Search(MakeMethod make, std::shared_ptr<const TriangleMesh> mesh, const CheckedAnswers& answers,
          MethodKind reference, std::span<const std::vector<double>> better)
-      : mesh_(std::move(mesh)),
+      : make_(std::move(make)),
+        mesh_(std::move(mesh)),
         answers_(answers),
         reference_(reference),
         better_(better),
@@ -65,6 +67,9 @@ class Search {
     }
     return {};
   }
+
+  /// The reference, which is right by definition.
+  void take_reference() { found.remedy = keep("method", to_text(reference_), {}, reference_); }
 
   Diagnosis found;
 
@@ -105,7 +110,7 @@ class Search {
   Result<DistanceError> error_of(const MethodOptions& options,
                                  std::span<const std::vector<double>> better,
                                  const Progress& progress) const {
-    const auto method = build_near(options, part_of(progress, 0.0, 0.7));
+    const auto method = make_(options, part_of(progress, 0.0, 0.7));
     if (!method) return method.error();
     auto results =
         (*method)->solve_each(answers_.sources, {.quality = false}, part_of(progress, 0.7, 1.0));
@@ -119,18 +124,6 @@ class Search {
     return error;
   }
 
-  Result<std::shared_ptr<const DistanceMethod>> build_near(const MethodOptions& options,
-                                                           const Progress& progress) const {
-    if (options.method == MethodKind::kHeat) {
-      return build_method_near(mesh_, options, &answers_.method, progress);
-    }
-    auto triangulation = triangulation_for_waves(answers_.method);
-    if (!triangulation) return build_method(mesh_, options, progress);
-    auto waves = build_wave_surface(std::move(triangulation), progress);
-    if (!waves) return waves.error();
-    return build_method(mesh_, options, progress, *std::move(waves));
-  }
-
   TriedSetting keep(const std::string& option, const std::string& value, const DistanceError& error,
                     MethodKind against) {
     return found.tried.emplace_back(
@@ -142,6 +135,7 @@ class Search {
     return {};
   }
 
+  MakeMethod make_;
   std::shared_ptr<const TriangleMesh> mesh_;
   const CheckedAnswers& answers_;
   MethodKind reference_;
@@ -151,6 +145,21 @@ class Search {
   bool exact_answers_;  ///< the method exact has answered on this mesh
 };
 
+/// Options of the heat method, until one is the remedy.
+Result<void> try_candidates(Search& search, std::span<const Candidate> candidates,
+                            const Progress& progress) {
+  const auto count = static_cast<double>(candidates.size());
+  double done = 0;
+  for (const Candidate& candidate : candidates) {
+    const double next = done + 1 / count;
+    const double share = candidate.because.empty() ? kWorthOther : 1;
+    const auto tried = search.try_option(candidate, share, part_of(progress, done, next));
+    if (!tried || search.found.remedy) return tried;
+    done = next;
+  }
+  return {};
+}
+
 Result<void> try_heat_options(Search& search, const TriangleMesh& mesh,
                               const CheckedAnswers& answers, double most_faces,
                               const Progress& progress) {
@@ -159,18 +168,11 @@ Result<void> try_heat_options(Search& search, const TriangleMesh& mesh,
   const HeatMethod* const heat = answers.method.heat();
   auto candidates = heat_candidates(answers.options, inspect_mesh(mesh), heat->relative_t());
   std::erase_if(candidates, [&](const auto& each) { return faces * each.faces > most_faces; });
-  const auto count = static_cast<double>(candidates.size());
-  double done = 0;
-  for (const Candidate& candidate : candidates) {
-    const double next = done + kOptionsDone / count;
-    const double share = candidate.because.empty() ? kWorthOther : 1;
-    const auto tried = search.try_option(candidate, share, part_of(progress, done, next));
-    if (!tried || search.found.remedy) return tried;
-    done = next;
-  }
+  auto tried = try_candidates(search, candidates, part_of(progress, 0.0, kOptionsDone));
+  if (!tried || search.found.remedy) return tried;
   const Candidate refined = refined_candidate(answers.options);
   if (faces * refined.faces > most_faces) return {};
-  const auto tried = search.try_option(refined, kWorthFaces, part_of(progress, done, kFacesDone));
+  tried = search.try_option(refined, kWorthFaces, part_of(progress, kOptionsDone, kFacesDone));
   // Only where a finer mesh makes the answer good, the mesh is what was wrong.
   if (!search.found.remedy && search.found.cause && search.found.cause->option == refined.option) {
     search.found.cause->because.clear();
@@ -186,7 +188,19 @@ Result<Diagnosis> diagnose(const std::shared_ptr<const TriangleMesh>& mesh,
                            const CheckedAnswers& answers, MethodKind reference,
                            std::span<const std::vector<double>> better, Index most_faces,
                            const Progress& progress) {
-  Search search(mesh, answers, reference, better);
+  const MakeMethod make =
+      [&](const MethodOptions& options,
+          const Progress& part) -> Result<std::shared_ptr<const DistanceMethod>> {
+    if (options.method == MethodKind::kHeat) {
+      return build_method_near(mesh, options, &answers.method, part);
+    }
+    auto triangulation = triangulation_for_waves(answers.method);
+    if (!triangulation) return build_method(mesh, options, part);
+    auto waves = build_wave_surface(std::move(triangulation), part);
+    if (!waves) return waves.error();
+    return build_method(mesh, options, part, *std::move(waves));
+  };
+  Search search(make, mesh, answers, reference, better);
   if (badness(joint_error(answers.distances, better).figures) == 0) return Diagnosis{};
   if (answers.method.heat() != nullptr) {
     const auto tried = try_heat_options(search, *mesh, answers, most_faces, progress);
@@ -197,6 +211,15 @@ Result<Diagnosis> diagnose(const std::shared_ptr<const TriangleMesh>& mesh,
       return tried.error();
     }
   }
+  return std::move(search.found);
+}
+
+Result<Diagnosis> diagnose_space(const MakeMethod& make, const CheckedAnswers& answers,
+                                 const ReferenceAnswers& better,
+                                 std::span<const Candidate> candidates, const Progress& progress) {
+  Search search(make, nullptr, answers, better.method, better.distances);
+  if (auto tried = try_candidates(search, candidates, progress); !tried) return tried.error();
+  if (!search.found.remedy) search.take_reference();
   return std::move(search.found);
 }
 

@@ -10,7 +10,6 @@
 
 #include "solver/core/parallel.h"
 #include "solver/core/stopwatch.h"
-#include "solver/geometry/grid_mesh.h"
 #include "solver/method/marching_method.h"
 
 namespace geotherm {
@@ -21,8 +20,8 @@ using Place = std::array<double, 3>;  ///< in samples along the D axes
 /// One query.
 class GridMarch {
  public:
-  explicit GridMarch(const GridLattice& lattice)
-      : lattice_(lattice), grid_(lattice.grid()), d_(lattice.dimension()) {
+  explicit GridMarch(const GridLattice& lattice, double reach = kUnreached)
+      : lattice_(lattice), grid_(lattice.grid()), d_(lattice.dimension()), reach_(reach) {
     const auto count = static_cast<std::size_t>(grid_.sample_count());
     distance_.assign(count, kUnreached);
     nearest_.assign(count, kNoIndex);
@@ -68,7 +67,9 @@ class GridMarch {
       const auto [distance, v] = queue_.top();
       queue_.pop();
       if (is(v, kFinal) || distance != distance_[v]) continue;  // it was changed meanwhile
+      if (distance > reach_) break;
       state_[v] |= kFinal;
+      if (reach_ < kUnreached) near_.push_back({v, distance});
       if (++done % kReported == 0 &&
           !report(progress, "marching", static_cast<double>(done) / samples)) {
         return cancelled_error();
@@ -85,6 +86,8 @@ class GridMarch {
 
   std::vector<double> take_distances() { return std::move(distance_); }
   std::vector<Index> take_nearest() { return std::move(nearest_); }
+  /// Where there is a reach: the samples up to there.
+  std::vector<NearSample> take_near() { return std::move(near_); }
 
  private:
   enum : std::uint8_t { kFinal = 1, kSees = 2 };
@@ -265,6 +268,8 @@ class GridMarch {
   const GridLattice& lattice_;
   const Grid& grid_;
   const int d_;
+  const double reach_;  ///< farther samples are not asked for
+  std::vector<NearSample> near_;
   std::vector<Source> sources_;
   std::vector<double> distance_;
   std::vector<Index> nearest_;
@@ -337,6 +342,15 @@ Result<std::shared_ptr<const DistanceMethod>> build_grid_marching(std::shared_pt
   GridLattice lattice(std::move(grid));
   return std::shared_ptr<const DistanceMethod>(std::make_shared<const GridMarchingMethod>(
       std::move(lattice), watch.milliseconds(), threads, nanoseconds));
+}
+
+std::vector<NearSample> march_near(const GridLattice& lattice, std::span<const Index> samples,
+                                   std::span<const CellPoint> points, double reach) {
+  GridMarch march(lattice, reach);
+  for (const Index sample : samples) static_cast<void>(march.add_sample(sample, 0));
+  for (const CellPoint& point : points) static_cast<void>(march.add_point(point));
+  static_cast<void>(march.march({}));
+  return march.take_near();
 }
 
 }  // namespace geotherm

@@ -2,9 +2,12 @@
 #pragma once
 
 #include <memory>
+#include <span>
+#include <vector>
 
 #include "geotherm/distance_method.h"
 #include "geotherm/domains.h"
+#include "solver/geometry/grid_mesh.h"
 
 namespace geotherm {
 
@@ -19,5 +22,17 @@ namespace geotherm {
 Result<std::shared_ptr<const DistanceMethod>> build_grid_marching(std::shared_ptr<const Grid> grid,
                                                                   int threads,
                                                                   const Progress& progress = {});
+
+/// Distance of a sample, model units.
+struct NearSample {
+  Index sample;
+  double distance;
+};
+
+/// The samples up to this far from samples and points of cells, by the same marching, the nearest
+/// first. Precondition: the sources are valid. Cost: that of these samples, and 13 bytes of each in
+/// the grid.
+std::vector<NearSample> march_near(const GridLattice& lattice, std::span<const Index> samples,
+                                   std::span<const CellPoint> points, double reach);
 
 }  // namespace geotherm

@@ -145,9 +145,7 @@ double between(const double* a, const double* b, std::size_t dimension) {
   return std::sqrt(square);
 }
 
-/// Turns sources into anchors. Cells at a source keep the gradient of u: the straight distance in
-/// its place, which is better on triangles, made distances on tets worse (measured;
-/// docs/domains.md).
+/// Turns sources into anchors.
 class CellPlacer {
  public:
   explicit CellPlacer(const CellDomain& domain) : domain_(domain), mesh_(*domain.mesh) {}
@@ -223,7 +221,9 @@ Result<SourceAnchors> CellDomain::place(const SourceSet& sources) const {
   CellPlacer placer(*this);
   for (const SurfacePoint& point : sources.points) placer.add_vertex(point.vertex);
   for (const CellPoint& point : sources.cell_points) placer.add_point(point);
-  return placer.finish();
+  SourceAnchors anchors = placer.finish();
+  anchors.cell_points = sources.cell_points;
+  return anchors;
 }
 
 std::unique_ptr<const UnitField> CellDomain::unit_field(const HeatField& heat,

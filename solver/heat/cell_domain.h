@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
 #include <memory>
 #include <vector>
 
@@ -37,6 +38,17 @@ struct CellDomain final : Domain {
   /// linear functions are that have these gradients (the pseudo-inverse of G).
   std::vector<double> corner_places(Index cell) const;
 };
+
+/// A cell beside a source, with the distances of its corners, in units of the domain.
+struct NearCell {
+  Index cell;
+  std::array<double, 4> distances;
+};
+
+/// The tets nearest to the sources, where fast marching knows the distance: up to a few widths from
+/// them, of many sources up to a tenth of the vertices. None where the cells are no tets in space.
+/// The same whatever the elimination order. Cost: some microseconds for each of their vertices.
+std::vector<NearCell> near_tets(const CellDomain& domain, const SourceAnchors& anchors);
 
 /// What makes the domain of a complex.
 std::shared_ptr<const Domain::Input> cell_input(std::shared_ptr<const CellComplex> cells);

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 
 #include "solver/accuracy/distance_bounds.h"
 #include "solver/core/parallel.h"
@@ -72,9 +73,6 @@ double CellField::length(Index cell, const Square& inverse, Eigen::Index column)
       cell_gradient(mesh, cell, [&](std::size_t k) { return log_u_(corners[k], column); });
   const double size = norm(g);
   if (!(size > 0) || !std::isfinite(size)) return 1;  // no logarithm: u <= 0
-  if (std::ranges::any_of(corners, [this](Index row) { return domain_.on_boundary[row] != 0; })) {
-    return 1;  // at a border the slope falls, too: heat does not leave
-  }
   const Eigen::Vector3d along = Eigen::Map<const Eigen::Matrix3d>(inverse.data()) *
                                 Eigen::Map<const Eigen::Vector3d>(g.data()) / size;
   double low = kUnreached, high = -kUnreached;
@@ -124,7 +122,6 @@ void CellField::add_tets(Index first_tet, Index end_tet, Eigen::Index first, int
   pass.corners = mesh.corners.data();
   pass.gradients = mesh.gradients.data();
   pass.measures = mesh.measures.data();
-  pass.on_boundary = domain_.on_boundary.data();
   pass.first = first_tet;
   pass.end = end_tet;
   pass.u = heat_.u.data() + first;
@@ -167,7 +164,46 @@ void CellField::add_cells(Index first_cell, Index end_cell, Block& b) const {
   }
 }
 
-Block CellField::divergence(std::span<const SourceAnchors> /*anchors*/) const {
+/// In a cell beside a source X is known: the gradient of the distances at its corners.
+void CellField::put_known(Index cell, std::span<const double> distances, Eigen::Index column,
+                          Block& b) const {
+  const CellMesh& mesh = *domain_.mesh;
+  const Direction before = of_cell(cell, inverse_square(cell), column);
+  const auto known = cell_gradient(mesh, cell, [&](std::size_t k) { return distances[k]; });
+  const double* at = mesh.gradients_of(cell);
+  for (const Index row : mesh.corners_of(cell)) {
+    double flow = 0;
+    for (int e = 0; e < mesh.dimension; ++e) flow += *at++ * (known[e] - before[e]);
+    b(row, column) += mesh.measures[cell] * flow;
+  }
+}
+
+/// In two dimensions those are the cells that touch a source at a vertex, and straight lines.
+void CellField::put_near(const SourceAnchors& anchors, Eigen::Index column, Block& b) const {
+  const CellMesh& mesh = *domain_.mesh;
+  for (const NearCell& near : near_tets(domain_, anchors)) {
+    put_known(near.cell, near.distances, column, b);
+  }
+  const CellComplex& given = *domain_.given;
+  if (mesh.dimension != 2 || given.positions.empty() || !given.lengths_are_straight) return;
+  const auto place = [&](Index row) { return given.positions[domain_.vertex_of_row[row]]; };
+  std::map<Index, std::vector<double>> distances;  // of each cell
+  for (const auto& anchor : anchors.anchors) {
+    if (anchor.offset > 0) continue;
+    for (const Index cell : mesh.cells_at.at(anchor.row)) {
+      const auto corners = mesh.corners_of(cell);
+      std::vector<double>& of = distances[cell];
+      of.resize(corners.size(), kUnreached);
+      for (std::size_t k = 0; k < corners.size(); ++k) {
+        const Vec3 line = place(corners[k]) - place(anchor.row);
+        of[k] = std::min(of[k], line.norm() / domain_.unit);
+      }
+    }
+  }
+  for (const auto& [cell, of] : distances) put_known(cell, of, column, b);
+}
+
+Block CellField::divergence(std::span<const SourceAnchors> anchors) const {
   const CellMesh& mesh = *domain_.mesh;
   const Eigen::Index columns = heat_.u.cols();
   Block b = work_.pool.take(heat_.u.rows(), columns);
@@ -182,6 +218,12 @@ Block CellField::divergence(std::span<const SourceAnchors> /*anchors*/) const {
                  }
                });
   add_cells(mesh.crossing, mesh.cell_count(), b);
+  if (!shortens_) return b;
+  parallel_for(work_.threads, columns, 1, [&](std::int64_t begin, std::int64_t end) {
+    for (std::int64_t c = begin; c < end; ++c) {
+      put_near(anchors[static_cast<std::size_t>(c)], c, b);
+    }
+  });
   return b;
 }
 

@@ -35,7 +35,6 @@ struct TetPass {
   const Index* corners;     ///< four to a tet
   const double* gradients;  ///< of their hat functions: three numbers to a corner
   const double* measures;   ///< of each tet
-  const char* on_boundary;  ///< of each row: tets there keep |X| = 1
   Index first, end;         ///< tets to be walked
   const double* u;
   const double* log_u;         ///< null: X keeps length 1

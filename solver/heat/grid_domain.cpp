@@ -182,7 +182,9 @@ Result<SourceAnchors> GridDomain::place(const SourceSet& sources) const {
       anchors.add_corner(row, std::sqrt(square) * cell.slowness / unit, point.weights[k]);
     }
   }
-  return anchors.finish(matrix->components);
+  SourceAnchors out = anchors.finish(matrix->components);
+  out.cell_points = sources.cell_points;
+  return out;
 }
 
 std::unique_ptr<const UnitField> GridDomain::unit_field(const HeatField& heat,

@@ -3,13 +3,18 @@
 
 #include <algorithm>
 #include <cmath>
+#include <unordered_map>
 
 #include "solver/core/parallel.h"
+#include "solver/grid/grid_marching.h"
 #include "solver/heat/field_kernels.h"
 #include "solver/heat/grid_domain.h"
 
 namespace geotherm {
 namespace {
+
+/// So far from the sources, in mean widths of cells, the gradient is that of near-exact distances.
+constexpr double kNearReach = 5;
 
 /// Layers are cut into so many ranges of two or more, whatever the number of threads.
 std::vector<Index> cut_layers(Index layers) {
@@ -75,10 +80,6 @@ double GridField::length(const Element& element, Eigen::Index column) const {
   const double size = norm(g);
   if (!(size > 0) || !std::isfinite(size)) return 1;  // no logarithm: u <= 0
   double reach = 0;
-  for (int k = 0; k < element.count; ++k) {
-    // At a border the slope falls, too: heat does not leave.
-    if (domain_.on_boundary[element.rows[k]] != 0) return 1;
-  }
   for (int e = 0; e < element.dimension; ++e) reach += element.extent[e] * std::abs(g[e]) / size;
   const double root_t = root_t_.of(domain_.matrix->components.of[element.rows[0]]);
   return front_length(reach, size, root_t, 1 / root_t);
@@ -144,7 +145,39 @@ void GridField::add_layers(Index first, Index end, Block& b) const {
   });
 }
 
-Block GridField::divergence(std::span<const SourceAnchors> /*anchors*/) const {
+/// In the cells nearest to the sources X is known: the gradient of the distance by fast marching.
+/// Its right side is that of all of L, also of what the gradient in the middle does not see, which
+/// would flatten the tip of the cone.
+void GridField::put_near(const SourceAnchors& anchors, Eigen::Index column, Block& b) const {
+  const GridLattice& lattice = *domain_.lattice;
+  std::vector<Index> samples;
+  for (const auto& anchor : anchors.anchors) {
+    if (anchor.offset == 0) samples.push_back(domain_.vertex_of_row[anchor.row]);
+  }
+  const std::vector<NearSample> near =
+      march_near(lattice, samples, anchors.cell_points, kNearReach * domain_.unit);
+  std::unordered_map<Index, double> distance_of;
+  for (const auto& [sample, distance] : near) distance_of.emplace(sample, distance / domain_.unit);
+  for (const auto& [lowest, unused] : near) {
+    if (!lattice.has_cell(lowest)) continue;
+    const GridCell cell = lattice.cell(lowest);
+    const auto is_near = [&](Index sample) { return distance_of.contains(sample); };
+    if (!std::all_of(cell.corners.begin(), cell.corners.begin() + cell.count, is_near)) continue;
+    const Element element = element_of(cell);
+    const Direction x = of_cell(element, column);
+    for (int k = 0; k < cell.count; ++k) {
+      double sum = 0;
+      for (int e = 0; e < element.dimension; ++e) {
+        const double rise = distance_of[cell.corners[k]] - distance_of[cell.corners[k ^ 1 << e]];
+        const double before = element.is_farther(k, e) ? x[e] : -x[e];
+        sum += element.weight[e] * (rise / element.extent[e] - before);
+      }
+      b(element.rows[k], column) += element.measure * sum;
+    }
+  }
+}
+
+Block GridField::divergence(std::span<const SourceAnchors> anchors) const {
   Block b = work_.take_zero(heat_.u.rows(), heat_.u.cols());
   // Ranges write to layers of their own, then those cells follow that join two of them: each row
   // has its sum in one order, with any number of threads.
@@ -157,6 +190,12 @@ Block GridField::divergence(std::span<const SourceAnchors> /*anchors*/) const {
       }
     });
   }
+  if (!shortens_) return b;
+  parallel_for(work_.threads, b.cols(), 1, [&](std::int64_t begin, std::int64_t end) {
+    for (std::int64_t c = begin; c < end; ++c) {
+      put_near(anchors[static_cast<std::size_t>(c)], c, b);
+    }
+  });
   return b;
 }
 

@@ -33,6 +33,7 @@ class GridField final : public CellsUnitField {
   Direction of_cell(const Element& element, Eigen::Index column) const;
   double length(const Element& element, Eigen::Index column) const;
   void add_layers(Index first, Index end, Block& b) const;
+  void put_near(const SourceAnchors& anchors, Eigen::Index column, Block& b) const;
 
   const GridDomain& domain_;
 };

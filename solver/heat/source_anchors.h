@@ -38,10 +38,11 @@ struct SourceAnchors {
     Eigen::Vector2d from, to;
   };
 
-  std::vector<Anchor> anchors;       ///< ascending rows, each once
-  std::vector<Piece> pieces;         ///< of the sources that are no vertices
-  std::vector<NearFace> near_faces;  ///< each face once
-  std::vector<Index> components;     ///< that hold a source, ascending
+  std::vector<Anchor> anchors;         ///< ascending rows, each once
+  std::vector<Piece> pieces;           ///< of the sources that are no vertices
+  std::vector<NearFace> near_faces;    ///< each face once
+  std::vector<CellPoint> cell_points;  ///< sources in cells, as they were given
+  std::vector<Index> components;       ///< that hold a source, ascending
 
   std::vector<Index> rows() const;
 };

@@ -12,27 +12,24 @@ struct TetLanes {
   double measure[kCount];
   double flow[3][kCount];  ///< what X gives to corners 1 to 3; corner 0 takes the opposite of all
   unsigned careful;        ///< bits of lanes where the fast path does not hold
-  unsigned whole;          ///< bits of lanes where X keeps length 1
 };
 
 template <int K>
 void load_tets(const TetPass& pass, Index first, TetLanes<K>& s) {
   prefetch_ahead(pass.corners + 4 * std::ptrdiff_t{first}, 4 * TetLanes<K>::kTets);
   prefetch_ahead(pass.gradients + 12 * std::ptrdiff_t{first}, 12 * TetLanes<K>::kTets);
-  s.careful = s.whole = 0;
+  s.careful = 0;
   for (int i = 0; i < TetLanes<K>::kTets; ++i) {
     const Index* const corner = pass.corners + 4 * std::ptrdiff_t{first + i};
     const double* const gradient = pass.gradients + 12 * std::ptrdiff_t{first + i} + 3;
     constexpr unsigned kAll = (1U << K) - 1;
-    bool mixed = false, at_border = false;
+    bool mixed = false;
     for (int c = 0; c < 4; ++c) {
-      at_border |= pass.on_boundary[corner[c]] != 0;
       mixed |= pass.level != nullptr &&
                std::memcmp(pass.level + corner[0] * pass.stride,
                            pass.level + corner[c] * pass.stride, K * sizeof(*pass.level)) != 0;
     }
     s.careful |= (mixed ? kAll : 0) << (i * K);
-    s.whole |= (at_border ? kAll : 0) << (i * K);
     for (int k = 0; k < K; ++k) {
       const int lane = i * K + k;
       s.u0[lane] = pass.u[corner[0] * pass.stride + k];
@@ -106,14 +103,8 @@ void compute_tets(const TetPass& pass, TetLanes<K>& s) {
     Register factor = -load(s.measure + j) * inverse_root(square);
     if (pass.log_u != nullptr) {
       Bits no_length{};  // lanes whose logarithms or gradients say none
-      const Register length = tet_length(g, dl, pass.root_t, no_length);
-      double lengths[kLanes];
-      store(length, lengths);
-      for (int k = 0; k < kLanes; ++k) {
-        if ((s.whole >> (j + k) & 1) != 0) lengths[k] = 1;
-      }
-      factor *= load(lengths);
-      s.careful |= (lane_mask(no_length) << j) & ~s.whole;
+      factor *= tet_length(g, dl, pass.root_t, no_length);
+      s.careful |= lane_mask(no_length) << j;
     }
     for (int c = 0; c < 3; ++c) store(factor * dot(direction, g[c]), s.flow[c] + j);
     s.careful |= lane_mask(careful) << j;

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
+#include <Eigen/LU>
 #include <algorithm>
+#include <cmath>
 #include <new>
 
 #include "geotherm/domains.h"
@@ -12,6 +14,11 @@ namespace {
 
 /// The stiffness that is left of a sliver, in that of a good tet: too little for an answer to show.
 constexpr double kSliverStiffness = 1e-6;
+
+/// What u is linear over, in radii of a tet's circumsphere, which are larger where tets are less
+/// regular. Chosen between convex bodies, where more is better, and bent tubes, where less is
+/// (docs/domains.md).
+constexpr double kWidth = 1.25;
 
 /// Takes the weight from slivers: their large gradients would rule those of the good tets around
 /// them, and little room goes with them. They stay cells, so that sources may lie in them, and one
@@ -51,6 +58,16 @@ void weaken_slivers(const std::vector<Tet>& tets, std::span<const double> height
        ", with a height below a fifth of the shortest edge, left without weight"});
 }
 
+/// Of the sphere through the corners.
+double circumradius(std::span<const Vec3> positions, const Tet& tet) {
+  Eigen::Matrix3d edges;
+  for (int k = 0; k < 3; ++k) {
+    edges.row(k) =
+        (positions[tet[static_cast<std::size_t>(k) + 1]] - positions[tet[0]]).transpose();
+  }
+  return (edges.inverse() * (0.5 * edges.rowwise().squaredNorm())).norm();
+}
+
 }  // namespace
 
 Result<CellComplex> cells_of(const TetMesh& mesh) try {
@@ -82,7 +99,7 @@ Result<CellComplex> cells_of(const TetMesh& mesh) try {
     }
     cells.start.push_back(std::ssize(cells.corners));
     cells.measures.push_back(element.volume);
-    cells.widths.push_back(longest);
+    cells.widths.push_back(kWidth * std::min(longest, circumradius(positions, tet)));
     heights.push_back(height_in_edges(mesh, tet, element));
   }
   weaken_slivers(clean.tets, heights, cells);

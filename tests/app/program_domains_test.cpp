@@ -73,10 +73,26 @@ TEST_F(ProgramInVolumes, HeatIsHeldAgainstFastMarching) {
   EXPECT_TRUE(report["error"]["mean_relative"].is_number());
 }
 
+TEST_F(ProgramInVolumes, AStudyIsHeldAgainstFastMarching) {
+  const Json study =
+      json({"study", "ball.mesh", "-s", "17", "--factors", "1:100:2", "--json", "-"});
+  EXPECT_EQ(study["reference"], "fast-marching");
+  EXPECT_EQ(study["rows"].size(), 2U * 2 * 3 * 5);  // rules, factors, boundary rules, constraints
+  EXPECT_EQ(study["best"]["time_factor"], 1);
+  EXPECT_LT(study["best"]["mean_relative"].get<double>(), 0.1);
+  const double edge = study["mean_edge_length"];
+  const Json& row = study["rows"][0];
+  EXPECT_NEAR(row["t"].get<double>(), row["t_over_h2"].get<double>() * edge * edge, 1e-9);
+}
+
 TEST_F(ProgramInVolumes, PoorDistancesNameWhatWasTriedOrAnswerBetter) {
   // Sources at the border of so coarse a ball are poor by the largest error.
   const ProgramRun kept = run({"solve", "ball.mesh", "-s", "boundary"});
   EXPECT_NE(kept.err.find("poor distances"), std::string::npos) << kept.err;
+  const Json tried = json({"solve", "ball.mesh", "-s", "17", "--time-factor", "300", "--check",
+                           "--json", "-"})["error"];
+  EXPECT_EQ(tried["cause"]["option"], "time-factor") << tried;
+  EXPECT_EQ(tried["cause"]["value"], "1") << tried;
   const ProgramRun better = run({"solve", "ball.mesh", "-s", "boundary", "--on-poor", "better"});
   EXPECT_NE(better.err.find("the method fast-marching answered"), std::string::npos) << better.err;
 }
@@ -126,7 +142,6 @@ TEST_F(ProgramInVolumes, RowsOfManySourcesAreThoseOfOne) {
 TEST_F(ProgramInVolumes, WhatIsOfSurfacesIsRefusedInOneLine) {
   expect_refused({"path", "ball.mesh", "--from", "0", "--to", "5", "-o", "p.obj"},
                  "paths are of triangle meshes, and ball is a volume");
-  expect_refused({"study", "ball.mesh"}, "studies are of triangle meshes");
   expect_refused({"sample", "ball.mesh", "-n", "3"}, "samples are of triangle meshes");
   expect_refused({"solve", "ball.mesh", "-s", "0", "--method", "exact"}, "is of surfaces");
   expect_refused({"solve", "ball.mesh", "-s", "0", "--refine", "1"}, "refined");

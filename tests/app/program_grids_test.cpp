@@ -130,7 +130,6 @@ TEST_F(ProgramOnGrids, OptionsOfReadingDecide) {
 TEST_F(ProgramOnGrids, WhatIsOfSurfacesIsRefusedInOneLine) {
   expect_refused({"path", "maze.npy", "--from", "0", "--to", "5", "-o", "p.obj"},
                  "paths are of triangle meshes, and maze is a grid of");
-  expect_refused({"study", "maze.npy"}, "studies are of triangle meshes");
   expect_refused({"sample", "maze.npy", "-n", "3"}, "samples are of triangle meshes");
   expect_refused({"solve", "maze.npy", "-s", "0", "--method", "exact"}, "this is a grid");
   expect_refused({"solve", "maze.npy", "-s", "0", "--refine", "1"}, "refined");

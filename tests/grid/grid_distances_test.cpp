@@ -188,6 +188,25 @@ Grid corridors(Index n, double speed, double& length, Index& end) {
   return maze;
 }
 
+TEST(GridHeat, BesideASourceDistancesAreThoseOfFastMarching) {
+  constexpr Index kSamples = 21;
+  constexpr double kStep = 1.0 / (kSamples - 1);
+  const Grid grid = cube(kSamples);
+  const Index middle = grid.number({10, 10, 10});
+  SourceSet between;  // in the middle of the cell there
+  between.cell_points.push_back({middle, std::vector<double>(8, 0.125)});
+  for (const SourceSet& sources : {SourceSet::of_vertices({middle}), between}) {
+    const bool is_sample = sources.cell_points.empty();
+    const Vec3 source = Vec3::Constant(is_sample ? 0.5 : 0.5 + kStep / 2);
+    const auto heat = distances_in(grid, sources, MethodKind::kHeat);
+    for (const Index along : {1, 3, 5}) {
+      const Index v = grid.number({10 + along, 10, 10});
+      EXPECT_NEAR(heat[v], (grid.position(v) - source).norm(), 0.25 * kStep) << along;  // 0.6 without it
+    }
+    EXPECT_LE(error_of(grid, heat, line_from(source)).mean, 0.025);  // 0.034 without it
+  }
+}
+
 TEST(GridMethods, InCorridorsDistanceIsTheNumberOfSteps) {
   double length = 0;
   Index end = 0;

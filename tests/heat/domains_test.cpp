@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <queue>
 #include <random>
 
@@ -155,6 +156,58 @@ TEST(Domains, InABoxOfTetsErrorsFallWithTheEdgesSlow) {
     before = error;
   }
   EXPECT_LE(before, 0.02);  // users accept that much of 80,000 tets
+}
+
+/// Two arms of 3 x 1 x 1 that share a cube at the origin, cut into n x n x n cubes of tets a unit.
+TetMesh elbow_of_tets(Index n) {
+  const auto is_inside = [n](Index i, Index j) { return i < n || j < n; };
+  std::map<std::array<Index, 3>, Index> number;
+  std::vector<Vec3> positions;
+  const auto vertex = [&](const std::array<Index, 3>& at) {
+    const auto [entry, is_new] = number.try_emplace(at, static_cast<Index>(positions.size()));
+    if (is_new) positions.push_back(Vec3(at[0], at[1], at[2]) / n);
+    return entry->second;
+  };
+  std::vector<Tet> tets;
+  for (Index i = 0; i < 3 * n; ++i) {
+    for (Index j = 0; j < 3 * n; ++j) {
+      for (Index k = 0; is_inside(i, j) && k < n; ++k) {
+        std::array<int, 3> order = {0, 1, 2};
+        do {
+          std::array<Index, 3> at = {i, j, k};
+          Tet& tet = tets.emplace_back(Tet{vertex(at)});
+          for (std::size_t s = 0; s < 3; ++s) {
+            ++at[order[s]];
+            tet[s + 1] = vertex(at);
+          }
+        } while (std::ranges::next_permutation(order).found);
+      }
+    }
+  }
+  return *TetMesh::build(std::move(positions), std::move(tets));
+}
+
+TEST(Domains, RoundTheCornerOfAnElbowOfTetsDistancesFollowTheShortestWay) {
+  const TetMesh elbow = elbow_of_tets(6);
+  const Vec3 source(0.5, 3, 0.5), corner(1, 1, 0);
+  double off = 0, sum = 0;
+  const auto at_source = std::ranges::find(elbow.positions(), source);
+  ASSERT_NE(at_source, elbow.positions().end());
+  const auto vertex = static_cast<Index>(at_source - elbow.positions().begin());
+  const auto result = solve_cells(shared(cells_of(elbow)), SourceSet::of_vertices({vertex}));
+  for (Index v = 0; v < elbow.vertex_count(); ++v) {
+    const Vec3& at = elbow.positions()[v];
+    // Seen from above the way is straight, or bends at the corner; it climbs evenly.
+    const Vec3 to = at - source, to_corner = corner - source;
+    const bool hidden = to_corner.x() * to.y() - to_corner.y() * to.x() > 0 && at.x() > 1;
+    const double level =
+        hidden ? to_corner.head<2>().norm() + (at - corner).head<2>().norm() : to.head<2>().norm();
+    const double exact = std::hypot(level, to.z());
+    off += std::abs(result.distances[v] - exact);
+    sum += exact;
+  }
+  // 6.6 % where X keeps its length beside the border, and t is the square of the longest edges.
+  EXPECT_LE(off, 0.045 * sum);
 }
 
 TEST(Domains, AutoBoundaryIsAverageInVolumesAndNeumannElsewhere) {

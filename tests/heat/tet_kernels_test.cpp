@@ -31,7 +31,6 @@ class TetKernels : public testing::TestWithParam<std::tuple<int, InstructionSet>
     std::uniform_real_distribution<double> exponent(-200, 0), place(0, 2);
     for (int v = 0; v < kVertices; ++v) {
       positions.emplace_back(place(random), place(random), place(random));
-      on_boundary.push_back(v % 9 == 0);
     }
     for (int e = 0; e < kVertices * group; ++e) {
       u.push_back(std::exp(exponent(random)));
@@ -72,10 +71,7 @@ class TetKernels : public testing::TestWithParam<std::tuple<int, InstructionSet>
     const Vec3 slope = gradient(tet, column, log_u);
     const Vec3 places = edges(tet) * slope.normalized();
     const double extent = std::max(0.0, places.maxCoeff()) - std::min(0.0, places.minCoeff());
-    double length = front_length(extent, slope.norm(), kRootT, 1 / kRootT);
-    for (int k = 0; k < 4; ++k) {
-      if (on_boundary[corners[4 * tet + k]]) length = 1;
-    }
+    const double length = front_length(extent, slope.norm(), kRootT, 1 / kRootT);
     const Vec3 x = -length * gradient(tet, column, u).stableNormalized();
     return {x[0], x[1], x[2]};
   }
@@ -87,7 +83,6 @@ class TetKernels : public testing::TestWithParam<std::tuple<int, InstructionSet>
     pass.corners = corners.data();
     pass.gradients = gradients.data();
     pass.measures = measures.data();
-    pass.on_boundary = on_boundary.data();
     pass.first = first;
     pass.end = kTets;
     pass.u = u.data();
@@ -108,7 +103,6 @@ class TetKernels : public testing::TestWithParam<std::tuple<int, InstructionSet>
 
   const int group = std::get<0>(GetParam());
   std::vector<Vec3> positions;
-  std::vector<char> on_boundary;
   std::vector<Index> corners;
   std::vector<double> gradients, measures, u, log_u;
   std::set<std::pair<Index, int>> careful;
