@@ -15,6 +15,12 @@
 namespace geotherm {
 namespace {
 
+/// But for the rounding of means.
+bool is_same(double slowness, double other) {
+  constexpr double kRoundOff = 1e-12;
+  return std::abs(slowness - other) <= kRoundOff * other;
+}
+
 using Place = std::array<double, 3>;  ///< in samples along the D axes
 
 /// One query.
@@ -226,7 +232,7 @@ class GridMarch {
     }
     const Index next = neighbor(v, main, steps[main]);
     if (straight) {
-      if (next == kNoIndex || 1 / grid_.speed(v) != s.slowness) return false;
+      if (next == kNoIndex || !is_same(1 / grid_.speed(v), s.slowness)) return false;
     } else if (!is_free(v, steps, way, s.slowness)) {
       return false;
     }
@@ -260,7 +266,7 @@ class GridMarch {
         if ((k >> e & 1) != 0) turned[e] = -turned[e];
       }
       const Index lowest = cell_towards(v, turned);
-      if (lowest != kNoIndex && lattice_.cell(lowest).slowness == slowness) return true;
+      if (lowest != kNoIndex && is_same(lattice_.cell(lowest).slowness, slowness)) return true;
     }
     return false;
   }

@@ -201,7 +201,8 @@ TEST(GridHeat, BesideASourceDistancesAreThoseOfFastMarching) {
     const auto heat = distances_in(grid, sources, MethodKind::kHeat);
     for (const Index along : {1, 3, 5}) {
       const Index v = grid.number({10 + along, 10, 10});
-      EXPECT_NEAR(heat[v], (grid.position(v) - source).norm(), 0.25 * kStep) << along;  // 0.6 without it
+      EXPECT_NEAR(heat[v], (grid.position(v) - source).norm(), 0.25 * kStep)
+          << along;  // 0.6 without it
     }
     EXPECT_LE(error_of(grid, heat, line_from(source)).mean, 0.025);  // 0.034 without it
   }

@@ -54,8 +54,9 @@ const std::vector<Permission>& permissions() {
                     "solver/accuracy/check_waves.h", "geotherm/polyhedral_methods.h"});
   const Names volume = with(method, {"solver/volume", "geotherm/domains.h"});
   const Names grid = with(volume, {"solver/grid"});
-  const Names heat = with(polyhedral, {"solver/heat", "solver/accuracy", "geotherm/heat_method.h",
-                                       "geotherm/options.h", "geotherm/domains.h"});
+  const Names heat =
+      with(polyhedral, {"solver/heat", "solver/volume", "solver/grid", "solver/accuracy",
+                        "geotherm/heat_method.h", "geotherm/options.h", "geotherm/domains.h"});
   static const std::vector<Permission> kPermissions = {
       {"solver/include", {"geotherm"}, {"std", "eigen"}, {}},
       {"solver/core", base, {"std", "eigen"}, {"posix"}},
