@@ -53,7 +53,6 @@ const std::vector<Permission>& permissions() {
       with(method, {"solver/polyhedral", "solver/accuracy/distance_bounds.h",
                     "solver/accuracy/check_waves.h", "geotherm/polyhedral_methods.h"});
   const Names volume = with(method, {"solver/volume", "geotherm/domains.h"});
-  const Names grid = with(volume, {"solver/grid"});
   const Names heat =
       with(polyhedral, {"solver/heat", "solver/volume", "solver/grid", "solver/accuracy",
                         "geotherm/heat_method.h", "geotherm/options.h", "geotherm/domains.h"});
@@ -71,7 +70,7 @@ const std::vector<Permission>& permissions() {
       {"solver/path", path, {"std", "eigen"}, {}},
       {"solver/polyhedral", polyhedral, {"std", "eigen"}, {}},
       {"solver/volume", volume, {"std", "eigen"}, {}},
-      {"solver/grid", grid, {"std", "eigen"}, {"zlib", "png"}},
+      {"solver/grid", with(volume, {"solver/grid"}), {"std", "eigen"}, {"zlib", "png"}},
       {"solver/heat", heat, {"std", "eigen"}, {}},
       {"solver", {"solver", "geotherm"}, {"std", "eigen"}, {}},
       {"docs/examples", {"geotherm", "docs/examples"}, {"std", "eigen"}, {}},
