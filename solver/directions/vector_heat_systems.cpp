@@ -6,6 +6,7 @@
 #include <string>
 #include <utility>
 
+#include "solver/core/text.h"
 #include "solver/directions/vector_heat_state.h"
 #include "solver/linear/symmetric_pattern.h"
 
