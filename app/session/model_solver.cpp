@@ -251,7 +251,7 @@ void ModelSolver::begin_reference(const MethodOptions& options, const ResolvedSo
   const bool plain = options.refine == 0 && model_.mesh->same_as().empty();
   if (options.method != MethodKind::kHeat || !plain || find_ready(options) != nullptr) return;
   if (!ReferenceBeside::is_worth_it(*model_.mesh, thread_count(options.threads))) return;
-  beside_ = std::make_unique<ReferenceBeside>(
+  beside_ = std::make_shared<ReferenceBeside>(
       model_.mesh, reference_of(options.method, wanted.check), std::vector{sources.set});
 }
 

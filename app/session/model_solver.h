@@ -156,7 +156,7 @@ class ModelSolver {
   };
   std::optional<Reference> reference_;  ///< the last
   /// That of the present question, where it is solved while its method is set up.
-  std::unique_ptr<ReferenceBeside> beside_;
+  std::shared_ptr<ReferenceBeside> beside_;
   struct Paths {
     std::shared_ptr<const DistanceMethod> method;
     std::shared_ptr<const TargetPathFinder> finder;
