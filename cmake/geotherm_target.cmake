@@ -10,8 +10,9 @@ if(GEOTHERM_SANITIZE)
   if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
     add_compile_options(-Wno-maybe-uninitialized)  # false alarms in instrumented code
     if("address" IN_LIST GEOTHERM_SANITIZE)
-      # Pointers to nothing end the program there anyhow, and whether each is aligned takes a quarter
-      # of the time to build; the fuzzers (clang) check that.
+      # Pointers to nothing end the program there anyhow, and these checks of each pointer (is it
+      # aligned, large enough, of that class) take a quarter of the time to build; the fuzzers (clang)
+      # make them.
       add_compile_options(-fno-sanitize=null,alignment,object-size,vptr)
     endif()
   endif()

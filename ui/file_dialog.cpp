@@ -142,6 +142,10 @@ void FileDialog::enter(const fs::path& folder) {
   error_ = why;
 }
 
+bool FileDialog::is_of_pixels() const {
+  return !has_extension(name_, std::span(file_task(purpose_).extensions).subspan(1));
+}
+
 void FileDialog::accept(Frame& frame) {
   if (name_.empty()) return;
   const FileTask& task = file_task(purpose_);
@@ -179,8 +183,9 @@ void FileDialog::finish(Frame& frame, const fs::path& file) {
       frame.ui.write_question.send(frame, command::Run{path});
       break;
     case FilePurpose::kSavePicture:
-      frame.send(as_shown_ ? command::SavePicture{path, 0, 0, panels_}
-                           : command::SavePicture{path, width_, height_, panels_});
+      frame.send(as_shown_
+                     ? command::SavePicture{path, 0, 0, panels_ && is_of_pixels()}
+                     : command::SavePicture{path, width_, height_, panels_ && is_of_pixels()});
       break;
     case FilePurpose::kSaveDistances:
       frame.send(command::SaveDistances{path});

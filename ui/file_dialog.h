@@ -70,6 +70,8 @@ class FileDialog {
   void draw_buttons(Frame& frame);
   void draw_question(Frame& frame);
   float height_below(const Frame& frame) const;
+  /// Whether the file that is named will be a picture of pixels, on which there can be panels.
+  bool is_of_pixels() const;
   void accept(Frame& frame);
   void finish(Frame& frame, const std::filesystem::path& file);
 

@@ -138,10 +138,7 @@ void FileDialog::draw_picture_options(Frame& frame) {
   ImGui::SameLine();
   draw_side("height", height_);
   ImGui::SameLine(0, frame.px(16));
-  // Panels are pixels.
-  const bool pixels = has_extension(name_, std::span(file_task(purpose_).extensions).first(1));
-  ImGui::BeginDisabled(!pixels);
-  panels_ = panels_ && pixels;
+  ImGui::BeginDisabled(!is_of_pixels());
   draw_checkbox(frame, "panels", "with the panels", panels_);
   ImGui::EndDisabled();
 }

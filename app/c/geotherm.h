@@ -281,7 +281,8 @@ GEOTHERM_API geotherm_status geotherm_relax(const geotherm_solver* solver,
 
 /* What they need of a model is made by the first call and kept with it: Directions for maps and
  * lines; a factorisation for values, and a second one for vectors, by the options of the last call,
- * which share what the last solver of the model has set up.
+ * which share what the last solver of the model has set up; for signed distances, the waves that
+ * lead curves.
  *
  * In a tangent frame, an angle in radians from e1 towards e2; frames are arrays of nine numbers:
  * e1, e2 and the normal. At a vertex e1 lies below its first edge, and angles are scaled to 2 pi

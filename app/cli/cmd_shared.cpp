@@ -65,9 +65,10 @@ const std::vector<TakenSetting>& taken_settings() {
 }
 
 Error for_one_process(const std::string& what, const std::string& takes = {}) {
-  return {ErrorCode::kBadInput, what + " is for one process, not for a mesh that ranks share" +
-                                    (takes.empty() ? "" : ", which takes " + takes) +
-                                    "; leave it out, or start without mpirun"};
+  return {ErrorCode::kBadInput,
+          what + " is for one process, not for a mesh that ranks share" +
+              (takes.empty() ? "" : ", which takes " + takes),
+          {"leave it out, or start without mpirun"}};
 }
 
 /// Errors: kBadInput, the first setting that is neither the default nor taken.
@@ -111,8 +112,9 @@ Result<void> refuse_what_one_does(const SolveArguments& a, const ViewerState& as
   }
   for (const std::string& path : a.outputs) {
     if (io::file_extension(path) == ".npy") continue;
-    return Error{ErrorCode::kBadInput, "--output: " + one_line(path) +
-                                           ": ranks write one array together; give -o FILE.npy"};
+    return Error{ErrorCode::kBadInput,
+                 "--output: " + one_line(path) + ": ranks write one array together",
+                 {"give -o FILE.npy"}};
   }
   return {};
 }

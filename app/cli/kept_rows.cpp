@@ -77,6 +77,12 @@ std::string job_of(const ManySources& work, Index columns, NpyType type) {
     sources.add(set.points);
     sources.add(set.edges);
     sources.add(set.offsets);
+    for (const FaceSegment& segment : set.segments) {
+      sources.add(std::span<const Index>(&segment.face, 1));
+      sources.add(std::span<const double>(segment.from));
+      sources.add(std::span<const double>(segment.to));
+      sources.add(std::span<const Index>(&segment.curve, 1));
+    }
   }
   sources.add(work.reach.targets);
   ViewerState state;

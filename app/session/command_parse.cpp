@@ -238,7 +238,7 @@ const Form kForms[] = {
     {"source add", "SOURCE...", 1, kAny, with_list<command::AddSources>},
     {"source move", "INDEX SOURCE", 2, 2, read_move},
     {"source remove", "INDEX", 1, 1, read_remove},
-    {"source extend", "V,V,...", 1, 1, read_extend},
+    {"source extend", "V,V,...|face:ID:b0:b1:b2,...", 1, 1, read_extend},
     {"source clear", "", 0, 0, plain<command::ClearSources>},
     {"source more", "", 0, 0, plain<command::MoreSources>},
     {"source fewer", "", 0, 0, plain<command::FewerSources>},

@@ -50,10 +50,14 @@ void add_places(const ResolvedSources& placed, int entry, const Model& model,
       places.push_back({entry, SurfacePoint::at_vertex(v), mesh.positions()[v], false});
     }
   }
+  constexpr double kSamePlace = 1e-9;  // where two pieces of a curve meet
   for (const FaceSegment& segment : placed.set.segments) {
     for (const auto& weights : {segment.from, segment.to}) {
       const SurfacePoint end = SurfacePoint::in_face(segment.face, weights);
-      places.push_back({entry, end, position_at(mesh, end), false});
+      const Vec3 place = position_at(mesh, end);
+      const bool joint = !places.empty() && places.back().entry == entry &&
+                         (places.back().position - place).norm() <= kSamePlace * place.norm();
+      if (!joint) places.push_back({entry, end, place, false});
     }
   }
 }

@@ -81,7 +81,7 @@ Result<std::shared_ptr<const DistanceMethod>> ModelSolver::make(const MethodOpti
   if (earlier != nullptr) {
     return build_method_moved(model_.mesh, options, earlier->method.get(), progress);
   }
-  if (beside_ && near == nullptr) {
+  if (beside_ && near == nullptr && options.method == MethodKind::kHeat) {
     auto made = HeatMethod::build(model_.mesh, options, progress, beside_->starter());
     if (!made) return made.error();
     return std::shared_ptr<const DistanceMethod>(
@@ -251,8 +251,10 @@ void ModelSolver::begin_reference(const MethodOptions& options, const ResolvedSo
   const bool plain = options.refine == 0 && model_.mesh->same_as().empty();
   if (options.method != MethodKind::kHeat || !plain || find_ready(options) != nullptr) return;
   if (!ReferenceBeside::is_worth_it(*model_.mesh, thread_count(options.threads))) return;
-  beside_ = std::make_shared<ReferenceBeside>(
-      model_.mesh, reference_of(options.method, wanted.check), std::vector{sources.set});
+  // Another one's memory might be missed by the factors.
+  const MethodKind kind = reference_of(options.method, wanted.check);
+  if (kind != MethodKind::kWavefront) return;
+  beside_ = std::make_shared<ReferenceBeside>(model_.mesh, kind, std::vector{sources.set});
 }
 
 Result<Answer> ModelSolver::answer_all(const MethodOptions& options, const ResolvedSources& sources,

@@ -57,7 +57,7 @@ Result<SourceSpec> parse_vertices(std::string_view text) {
     if (!vertex || *vertex < 0) {
       return unreadable(
           quoted(text) + " is no source",
-          {"write vertex ids from 0 (17 or 3,99,512), curve:V1,V2,..., "
+          {"write vertex ids from 0 (17 or 3,99,512), curve:V1,V2,... or curve:face:..., "
            "random:K[:SEED], boundary, face:ID:b0:b1:b2, xyz:x:y:z or sample:i:j[:k]"});
     }
     list.vertices.push_back(*vertex);

@@ -167,7 +167,7 @@ Result<Complexes> ScaledHeat::solve(std::span<const Index> rows, std::span<const
     add(-1, swept_product(z), residual);
     const double before = std::exchange(left, norm(residual));
     if (left > before / 2 && left <= kRounded * first) break;
-    if (products >= kBudget || !std::isfinite(left)) {
+    if (!(left <= kTolerance * first) && (products >= kBudget || !std::isfinite(left))) {
       return Error{ErrorCode::kBudgetEnded,
                    "the budget of " + std::to_string(kBudget) +
                        " iterations ended at a relative residual of " + rounded_text(left / first),

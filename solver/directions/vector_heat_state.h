@@ -22,7 +22,7 @@ using RowVectors = std::vector<std::complex<double>>;
 
 /// The heat of the rows that something spreads from.
 struct Warmth {
-  double t = 0;  ///< in squares of the mean edge
+  double t = 0;  ///< in squares of the surface's unit
   std::shared_ptr<const LinearSystem> system;
   HeatField heat;
   std::vector<char> reached;  ///< a flag for each row that is joined to one of those
@@ -43,7 +43,7 @@ struct VectorParts {
 
 struct VectorHeat::State {
   int threads = 1;
-  double t = 1;  ///< as asked for, in squares of the mean edge
+  double t = 1;  ///< as asked for, in squares of the surface's unit
   std::shared_ptr<const Surface> surface;
   std::shared_ptr<const LinearSystem> scalar;  ///< for that time
   mutable BlockPool pool;

@@ -24,7 +24,7 @@ struct SharedWaves {
 /// vertices and edges that several blocks have goes to the block that owns it and from there to the
 /// others, where edges wait again, until nothing waits in the band. So every face is crossed with
 /// the least values that any block knows, as in one process, but in another order within a band:
-/// distances differ by some 1e-4 of the largest, less than the method's error. One block gives the
+/// distances differ by up to 1e-3 of the largest, less than the method's error. One block gives the
 /// bits of one process.
 /// `is_source`: of each vertex of the part. `band`: in MeshPart::unit. Errors (the same on all
 /// ranks): kBudgetEnded (distances fall without end). All ranks call it. Precondition: blocks are

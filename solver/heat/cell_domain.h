@@ -45,8 +45,8 @@ struct NearCell {
   std::array<double, 4> distances;
 };
 
-/// The tets nearest to the sources, where fast marching knows the distance: up to a few widths from
-/// them, of many sources up to a tenth of the vertices. None where the cells are no tets in space.
+/// The tets up to three mean widths from the sources that see one along a straight line, with its
+/// length. None for more than 64 sources, and where the cells are no tets in space.
 /// The same whatever the elimination order. Cost: some microseconds for each of their vertices.
 std::vector<NearCell> near_tets(const CellDomain& domain, const SourceAnchors& anchors);
 

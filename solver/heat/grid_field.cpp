@@ -191,7 +191,10 @@ Block GridField::divergence(std::span<const SourceAnchors> anchors) const {
     });
   }
   if (!shortens_) return b;
-  parallel_for(work_.threads, b.cols(), 1, [&](std::int64_t begin, std::int64_t end) {
+  // Each march holds some bytes of every sample.
+  constexpr std::int64_t kMaxAtOnce = std::int64_t{1} << 22;
+  const int at_once = b.rows() > kMaxAtOnce ? 1 : work_.threads;
+  parallel_for(at_once, b.cols(), 1, [&](std::int64_t begin, std::int64_t end) {
     for (std::int64_t c = begin; c < end; ++c) {
       put_near(anchors[static_cast<std::size_t>(c)], c, b);
     }

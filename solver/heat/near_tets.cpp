@@ -92,16 +92,20 @@ class NearTets {
   }
 
   bool lies_in_space(Index cell) const {
-    constexpr double kRoundOff = 1e-6;
+    constexpr double kRoundOff = 1e-6, kOfProduct = 64 * 2.2e-16;
     const double* at = mesh_.gradients_of(cell);
     const auto corners = mesh_.corners_of(cell);
     Eigen::Matrix3d product = Eigen::Matrix3d::Zero();
+    double steepest = 0;  // flat tets have gradients whose digits cancel
     for (const Index row : corners) {
       const Vec3 edge = (place_of(row) - place_of(corners.front())) / domain_.unit;
-      product += edge * Eigen::Map<const Vec3>(at).transpose();
+      const Eigen::Map<const Vec3> gradient(at);
+      product += edge * gradient.transpose();
+      steepest = std::max(steepest, edge.norm() * gradient.norm());
       at += 3;
     }
-    return (product - Eigen::Matrix3d::Identity()).norm() < kRoundOff;
+    return (product - Eigen::Matrix3d::Identity()).norm() <
+           kRoundOff + kOfProduct * steepest * steepest;
   }
 
   const CellDomain& domain_;
@@ -114,7 +118,10 @@ class NearTets {
 std::vector<NearCell> near_tets(const CellDomain& domain, const SourceAnchors& anchors) {
   const CellMesh& mesh = *domain.mesh;
   if (!mesh.is_of_tets || domain.given->positions.empty()) return {};
-  if (anchors.anchors.size() > kMaxNearSources) return {};
+  const auto vertices =
+      std::ranges::count_if(anchors.anchors, [](const auto& anchor) { return anchor.offset == 0; });
+  const std::size_t sources = static_cast<std::size_t>(vertices) + anchors.cell_points.size();
+  if (sources > kMaxNearSources) return {};
   NearTets near(domain);
   for (const auto& anchor : anchors.anchors) {
     if (anchor.offset == 0) near.look_from(near.place_of(anchor.row), {&anchor.row, 1});

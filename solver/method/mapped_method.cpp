@@ -32,6 +32,21 @@ SourceSet with_standing(const TriangleMesh& mesh, SourceSet sources) {
   return sources;
 }
 
+/// Weights of a point of a face in one of its parts, numbered as subdivided_point() numbers them.
+std::array<double, 3> in_part(std::array<double, 3> weights, Index part, int times) {
+  for (int i = times; i-- > 0;) {
+    const int corner = part >> (2 * i) & 3;
+    std::array<double, 3> inner{};
+    for (int k = 0; k < 3; ++k) {
+      const double of_middle = 1 - 2 * weights[previous_corner(k)];
+      const double of_corner = 2 * weights[k] - (k == corner ? 1 : 0);
+      inner[k] = std::max(0.0, corner == 3 ? of_middle : of_corner);
+    }
+    weights = inner;
+  }
+  return weights;
+}
+
 /// A piece of a curve in the parts of its face that it crosses.
 std::vector<FaceSegment> subdivided_segment(const FaceSegment& segment, int times) {
   const auto at = [&segment](double share) {
@@ -57,15 +72,10 @@ std::vector<FaceSegment> subdivided_segment(const FaceSegment& segment, int time
   for (std::size_t i = 1; i < cuts.size(); ++i) {
     const double begin = cuts[i - 1], length = cuts[i] - begin;
     if (length < kNothing) continue;
-    // From inside, where there is no doubt about the part, out to its ends.
-    const SurfacePoint a = subdivided_point(at(begin + 0.25 * length), times);
-    const SurfacePoint b = subdivided_point(at(begin + 0.75 * length), times);
-    FaceSegment piece{a.face, {}, {}, segment.curve};
-    for (std::size_t k = 0; k < 3; ++k) {
-      piece.from[k] = std::max(0.0, 1.5 * a.weights[k] - 0.5 * b.weights[k]);
-      piece.to[k] = std::max(0.0, 1.5 * b.weights[k] - 0.5 * a.weights[k]);
-    }
-    out.push_back(piece);
+    // The part is told by the middle; ends lie on its border, where rounding would choose.
+    const Index part = subdivided_point(at(begin + length / 2), times).face;
+    out.push_back({part, in_part(at(begin).weights, part, times),
+                   in_part(at(cuts[i]).weights, part, times), segment.curve});
   }
   return out;
 }

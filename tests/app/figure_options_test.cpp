@@ -214,11 +214,11 @@ TEST(NumberFormats, WriteTheLabelsAnew) {
     if (format) app::format_labels(ticks, *format);
     return ticks.labels;
   };
-  using Labels = std::vector<std::string>;
-  EXPECT_EQ(labels("auto"), (Labels{"0", "500", "1000", "1500", "2000"}));
-  EXPECT_EQ(labels("fixed:1"), (Labels{"0.0", "500.0", "1000.0", "1500.0", "2000.0"}));
-  EXPECT_EQ(labels("scientific:1"), (Labels{"0.0e0", "5.0e2", "1.0e3", "1.5e3", "2.0e3"}));
-  EXPECT_EQ(labels("significant:2"), (Labels{"0", "5e+02", "1e+03", "1.5e+03", "2e+03"}));
+  using TickLabels = std::vector<std::string>;
+  EXPECT_EQ(labels("auto"), (TickLabels{"0", "500", "1000", "1500", "2000"}));
+  EXPECT_EQ(labels("fixed:1"), (TickLabels{"0.0", "500.0", "1000.0", "1500.0", "2000.0"}));
+  EXPECT_EQ(labels("scientific:1"), (TickLabels{"0.0e0", "5.0e2", "1.0e3", "1.5e3", "2.0e3"}));
+  EXPECT_EQ(labels("significant:2"), (TickLabels{"0", "5e+02", "1e+03", "1.5e+03", "2e+03"}));
   for (const char* wrong : {"%d", "fixed:", "fixed:13", "significant:0", "auto:2", "fixed:-1"}) {
     const auto format = app::parse_number_format(wrong);
     ASSERT_FALSE(format) << wrong;

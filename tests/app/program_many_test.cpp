@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <utility>
 
+#include "app/cli/kept_rows.h"
 #include "app/cli/many_work.h"
 #include "app/session/settings.h"
 #include "solver/core/stopwatch.h"
@@ -15,6 +16,7 @@
 #include "tests/app/npy_file.h"
 #include "tests/app/program_fixture.h"
 #include "tests/support/compare.h"
+#include "tests/support/shapes.h"
 
 namespace geotherm::test {
 namespace {
@@ -205,6 +207,17 @@ TEST_P(KeptRows, AreOfNoUseToOtherSourcesAndAnotherModel) {
 
 INSTANTIATE_TEST_SUITE_P(Of, KeptRows, testing::Bool(),
                          [](const auto& test) { return test.param ? "Pairs" : "Each"; });
+
+TEST(KeptRowsJob, KnowsCurvesAcrossFaces) {
+  app::ManySources work;
+  work.model.mesh = finish(plane_grid(2, 2, 1, 1));
+  SourceSet set;
+  set.segments = {{0, {1, 0, 0}, {0, 1, 0}, 0}};
+  work.sources.sets = {set};
+  const std::string one = app::job_of(work, 9, NpyType::kFloat64);
+  work.sources.sets.front().segments.front().to = {0, 0, 1};
+  EXPECT_NE(app::job_of(work, 9, NpyType::kFloat64), one);
+}
 
 TEST(RoomForMany, IsAskedBeforeTheWork) {
   constexpr double kMoreThanAnyDisk = 1e24;

@@ -17,7 +17,9 @@ TEST(ReferenceBesideTest, IsTheOneThatIsSolvedAfterwards) {
   const auto mesh = finish(jittered_plane(20, 0.45, 3));
   for (const auto laplacian : {LaplacianKind::kAuto, LaplacianKind::kRefined}) {
     ReferenceBeside beside(mesh, MethodKind::kWavefront, kSets);
-    const auto heat = HeatMethod::build(mesh, {.laplacian = laplacian}, {}, beside.starter());
+    HeatOptions options;
+    options.laplacian = laplacian;
+    const auto heat = HeatMethod::build(mesh, options, {}, beside.starter());
     ASSERT_TRUE(heat);
     ASSERT_TRUE(beside.has_begun());
     const auto early = beside.wait({});
@@ -31,7 +33,9 @@ TEST(ReferenceBesideTest, IsTheOneThatIsSolvedAfterwards) {
 TEST(ReferenceBesideTest, IsNotBegunWhereWavesNeedAnotherTriangulation) {
   const auto mesh = finish(jittered_plane(6, 0.45, 3));
   ReferenceBeside beside(mesh, MethodKind::kWavefront, kSets);
-  ASSERT_TRUE(HeatMethod::build(mesh, {.laplacian = LaplacianKind::kCotan}, {}, beside.starter()));
+  HeatOptions options;
+  options.laplacian = LaplacianKind::kCotan;
+  ASSERT_TRUE(HeatMethod::build(mesh, options, {}, beside.starter()));
   EXPECT_FALSE(beside.has_begun());
 }
 
@@ -57,17 +61,24 @@ TEST(ReferenceBesideTest, ChangesNothingInTheVerdict) {
   ASSERT_TRUE(ReferenceBeside::is_worth_it(*model.mesh, 2));
   ASSERT_FALSE(ReferenceBeside::is_worth_it(*model.mesh, 1));
   std::vector<std::shared_ptr<const AccuracyReport>> reports;
+  std::vector<std::vector<Index>> nearest;
   for (const int threads : {1, 2}) {
     app::ModelSolver solver(model);
     MethodOptions options;
     options.threads = threads;
-    const auto solved = solver.solve(options, {kSets.front(), {}}, {.check = {app::Check::kOn}});
+    app::Wanted wanted;
+    wanted.query.nearest = true;
+    wanted.check.against = app::Check::kOn;
+    const auto solved = solver.solve(options, {SourceSet::of_vertices({7, 20'000}), {}}, wanted);
     ASSERT_TRUE(solved) << solved.error().message;
     reports.push_back(solved->error);
+    nearest.push_back(solved->result.nearest_source);
   }
   EXPECT_EQ(reports[0]->reference, MethodKind::kWavefront);
   EXPECT_EQ(reports[0]->values, reports[1]->values);
   EXPECT_EQ(reports[0]->verdict, reports[1]->verdict);
+  EXPECT_EQ(nearest[0].size(), static_cast<std::size_t>(model.mesh->vertex_count()));
+  EXPECT_EQ(nearest[0], nearest[1]);
 }
 
 }  // namespace

@@ -73,7 +73,10 @@ std::string with_tables(std::string page) {
 
 TEST(SettingsPages, OfCommandsHaveWhatTheTableHas) {
   const std::string page = content(kCommands);
-  ASSERT_NE(page.find("<!-- settings of pictures -->\n"), std::string::npos);
+  for (const char* mark : {"<!-- settings of methods -->\n", "<!-- settings of pictures -->\n"}) {
+    const std::size_t from = page.find(mark);
+    ASSERT_TRUE(from != page.npos && page.find("<!-- end -->\n", from) != page.npos) << mark;
+  }
   const std::string right = with_tables(page);
   if (std::getenv("GEOTHERM_UPDATE_PAGES") != nullptr) std::ofstream(kCommands) << right;
   EXPECT_TRUE(page == right) << kCommands

@@ -119,6 +119,27 @@ TEST(SurfaceCurve, IsBetterThanTheVerticesNearIt) {
   EXPECT_LT(5 * error(line), error(SourceSet::of_vertices(near)));
 }
 
+TEST(SurfaceCurve, AlongAnEdgeOfTheRefinedMeshIsInOnePartAtATime) {
+  const MeshPtr mesh = finish(plane_grid(kN, kN, 1, 1));
+  SourceSet
+      set;  // a weight of 3/8 is an edge of the parts of eighths, and rounding must not matter
+  set.segments = {{0,
+                   {0.375, 0.3763709621663579, 0.2486290378336421},
+                   {0.375, 0.26747158331692444, 0.35752841668307556},
+                   0}};
+  MethodOptions options;
+  options.method = MethodKind::kWavefront;
+  const auto coarse = (*build_method(mesh, options))->solve(set, {});
+  options.refine = 3;
+  const auto fine = (*build_method(mesh, options))->solve(set, {});
+  ASSERT_TRUE(coarse);
+  ASSERT_TRUE(fine) << fine.error().message;
+  const double h = 1.0 / kN;
+  for (std::size_t v = 0; v < fine->distances.size(); ++v) {
+    EXPECT_NEAR(fine->distances[v], coarse->distances[v], h / 8) << v;
+  }
+}
+
 TEST(SurfaceCurve, HasAGroupOfItsOwn) {
   SourceSet set = SourceSet::of_vertices({5});
   set.segments = {{0, {1, 0, 0}, {0, 1, 0}, 3}, {1, {1, 0, 0}, {0, 1, 0}, 1}, {2, {}, {}, 3}};

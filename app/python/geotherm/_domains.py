@@ -124,7 +124,8 @@ class Grid(Model):
             if samples.max(initial=0) > 1:  # bytes that are no mask
                 raise InputError(
                     f"speeds has the shape {samples.shape}: an image in colours",
-                    hint="give a number a pixel, such as image[..., :3].mean(axis=2) > 127",
+                    hint="give a number a pixel, such as image[..., :3].mean(axis=2) > 127; "
+                    "of a volume that thin, floats",
                 )
         steps, begin = _along(spacing, "spacing", 1.0), _along(origin, "origin", 0.0)
         size = [*samples.shape[::-1], 1][:3]
