@@ -78,8 +78,9 @@ struct SampleTask {
   int relax = 0;  ///< steps
 };
 
-/// Ranks that solve for a vertex each, and hand the distances to all.
-SampleCrew crew_of(const DistanceMethod& method, const Ranks& ranks) {
+/// Ranks that solve for a vertex each, and hand the distances to all. `failed`: becomes true where
+/// one of them could not, which all then know.
+SampleCrew crew_of(const DistanceMethod& method, const Ranks& ranks, bool& failed) {
   const auto solve = [&](std::span<const Index> vertices, const QueryOptions& query,
                          const Progress& progress) -> Result<std::vector<DistanceResult>> {
     const auto ours = static_cast<std::size_t>(ranks.rank());
@@ -88,6 +89,7 @@ SampleCrew crew_of(const DistanceMethod& method, const Ranks& ranks) {
       mine = method.solve(SourceSet::of_vertices({vertices[ours]}), query, progress);
     }
     mine = ranks.agree_on(std::move(mine));
+    failed = !mine;
     if (!mine) return mine.error();
     const std::span<const double> row = mine->distances;
     const auto rows =
@@ -113,7 +115,11 @@ Result<FarthestPoints> take_samples(const DistanceMethod& method, const Triangle
   if (ranks == nullptr || ranks->alone()) {
     return farthest_points(method, mesh, task.count, {task.first}, told);
   }
-  return farthest_points_by(crew_of(method, *ranks), mesh, task.count, {task.first}, told);
+  bool failed = false;
+  auto points =
+      farthest_points_by(crew_of(method, *ranks, failed), mesh, task.count, {task.first}, told);
+  // What one of them met between queries, the others must know of before they wait for it.
+  return failed ? std::move(points) : ranks->agree_on(std::move(points));
 }
 
 /// Checks the method on some of the samples, and takes them again by the method that answers
