@@ -209,7 +209,7 @@ INSTANTIATE_TEST_SUITE_P(Of, KeptRows, testing::Bool(),
                          [](const auto& test) { return test.param ? "Pairs" : "Each"; });
 
 TEST(KeptRowsJob, KnowsCurvesAcrossFaces) {
-  app::ManySources work;
+  app::ManySources work{{}, {}, {}, {}, {}, {}, 1, *app::Ranks::join(), {}, 0, 0};
   work.model.mesh = finish(plane_grid(2, 2, 1, 1));
   SourceSet set;
   set.segments = {{0, {1, 0, 0}, {0, 1, 0}, 0}};
