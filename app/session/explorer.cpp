@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <future>
 #include <new>
+#include <utility>
 
 #include "app/session/progress.h"
 #include "app/session/sources.h"
@@ -22,9 +23,8 @@ std::shared_ptr<const Explored::Difference> difference_of(const Answer& a, const
   std::size_t count = 0;
   for (std::size_t i = 0; i < a.result.distances.size(); ++i) {
     const double d = a.result.distances[i] - b.result.distances[i];
-    const bool is_number = std::isfinite(d);
-    difference->values.push_back(is_number ? d : kUnreached);
-    if (!is_number) continue;
+    difference->values.push_back(std::isfinite(d) ? d : kUnreached);
+    if (!std::isfinite(d)) continue;
     difference->most = std::max(difference->most, std::abs(d));
     sum += std::abs(d);
     ++count;
@@ -40,25 +40,21 @@ void add_places(const ResolvedSources& placed, int entry, const Model& model,
   for (const Vec3& place : places_in_cells(model, placed.set)) {  // each an entry of its own
     places.push_back({entry, {}, place, true});
   }
+  const auto add = [&](const SurfacePoint& point, bool alone) {
+    places.push_back({entry, point, position_at(mesh, point), alone});
+  };
   const bool alone =
       placed.set.points.size() == 1 && placed.set.edges.empty() && placed.set.segments.empty();
-  for (const SurfacePoint& point : placed.set.points) {
-    places.push_back({entry, point, position_at(mesh, point), alone});
-  }
+  for (const SurfacePoint& point : placed.set.points) add(point, alone);
   for (const auto& edge : placed.set.edges) {
-    for (const Index v : edge) {
-      places.push_back({entry, SurfacePoint::at_vertex(v), mesh.positions()[v], false});
-    }
+    for (const Index v : edge) add(SurfacePoint::at_vertex(v), false);
   }
-  constexpr double kSamePlace = 1e-9;  // where two pieces of a curve meet
+  Index curve = kNoIndex;  // whose piece ends where the next one of it begins
   for (const FaceSegment& segment : placed.set.segments) {
-    for (const auto& weights : {segment.from, segment.to}) {
-      const SurfacePoint end = SurfacePoint::in_face(segment.face, weights);
-      const Vec3 place = position_at(mesh, end);
-      const bool joint = !places.empty() && places.back().entry == entry &&
-                         (places.back().position - place).norm() <= kSamePlace * place.norm();
-      if (!joint) places.push_back({entry, end, place, false});
+    if (std::exchange(curve, segment.curve) != segment.curve) {
+      add(SurfacePoint::in_face(segment.face, segment.from), false);
     }
+    add(SurfacePoint::in_face(segment.face, segment.to), false);
   }
 }
 

@@ -34,7 +34,8 @@ class SeveralBlocks : public testing::Test {
 
   static Result<SharedAnswer> solve_shared(const TriangleMesh& mesh, GlobalIndex source,
                                            const HeatOptions& options) {
-    const std::string path = testing::TempDir() + "several_blocks.ply";
+    const std::string path =
+        testing::TempDir() + testing::UnitTest::GetInstance()->current_test_info()->name() + ".ply";
     if (auto written = write_mesh(path, mesh); !written) return written.error();
     const auto ranks = start_mpi();
     if (!ranks) return ranks.error();

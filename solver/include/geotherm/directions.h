@@ -214,7 +214,9 @@ class VectorHeat {
 
 /// Where signed_distance() finds what is set up for it; each is asked for when it is needed.
 struct SignedSetup {
+  /// What tells sides of curves that separate.
   std::function<Result<std::shared_ptr<const Directions>>(const Progress&)> directions;
+  /// What carries the normals of curves that do not.
   std::function<Result<std::shared_ptr<const VectorHeat>>(const Progress&)> heat;
 };
 

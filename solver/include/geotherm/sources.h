@@ -21,9 +21,10 @@ struct CellPoint {
 /// A straight line in one face of a triangle mesh, all of which is a source: a piece of a curve
 /// that runs across faces.
 struct FaceSegment {
-  Index face = kNoIndex;               ///< that it is in
-  std::array<double, 3> from{}, to{};  ///< its ends: weights of the corners, >= 0, that sum to 1
-  Index curve = 0;                     ///< whose piece it is: those of one number are one group
+  Index face = kNoIndex;         ///< that it is in
+  std::array<double, 3> from{};  ///< one end: weights of the corners, >= 0, that sum to 1
+  std::array<double, 3> to{};    ///< the other end
+  Index curve = 0;               ///< whose piece it is: those of one number are one group
 
   bool operator==(const FaceSegment&) const = default;
 };
