@@ -42,8 +42,8 @@ constexpr double kRankBytes = 56 * kMegabyte, kShareBytes = 1150;
 /// Seconds of a processor for a vertex of a rank (scripts/plan_rates.sh measures them): to read and
 /// share out; blocks with their factors; one solve of a block; BoomerAMG, and an iteration with it;
 /// blocks for waves, and these.
-constexpr double kSharing = 1.0e-6, kBlocks = 3.2e-6, kBlockSolve = 0.2e-6, kAmg = 2.4e-6,
-                 kIteration = 0.25e-6, kCutting = 1.9e-6, kWaves = 1.0e-6;
+constexpr double kSharing = 1.3e-6, kBlocks = 3.1e-6, kBlockSolve = 0.29e-6, kAmg = 2.0e-6,
+                 kIteration = 0.21e-6, kCutting = 2.2e-6, kWaves = 1.2e-6;
 /// Exchanges of waves for each mean edge of the longest distance (bands and what they need
 /// beyond one each), and that distance where a surface is about as long as wide: from one corner of
 /// a square to the other, in edges of which half are diagonals.
