@@ -107,12 +107,12 @@ Result<std::vector<SurfacePoint>> points_in_order(const geotherm_sources* source
   if (!each) return each.error();
   std::vector<SurfacePoint> points;
   for (const SourceSet& set : each->sets) {
-    if (set.points.size() != 1 || !set.edges.empty() || !set.segments.empty() ||
-        !set.offsets.empty()) {
+    const SurfacePoint* const point = app::only_point(set);
+    if (point == nullptr || !set.offsets.empty()) {
       return bad_argument("point " + std::to_string(points.size()) + " of the path is none",
                           {"give a vertex, a point in a face or a place, without offset"});
     }
-    points.push_back(set.points.front());
+    points.push_back(*point);
   }
   return points;
 }

@@ -80,13 +80,13 @@ Result<void> place(const std::vector<Source>& named, CentreFigures& figures) {
   if (!placed) return placed.error();
   figures.warnings.insert(figures.warnings.end(), placed->warnings.begin(), placed->warnings.end());
   for (const SourceSet& set : placed->sets) {
-    if (set.points.size() != 1 || !set.edges.empty() || !set.segments.empty() ||
-        !set.offsets.empty()) {
+    const SurfacePoint* const point = only_point(set);
+    if (point == nullptr || !set.offsets.empty()) {
       return Error{ErrorCode::kBadInput,
                    "--of: point " + std::to_string(figures.points.size()) + " is none",
                    {"write vertex ids, random:K, face:ID:b0:b1:b2 or xyz:x:y:z, without offsets"}};
     }
-    figures.points.push_back(set.points.front());
+    figures.points.push_back(*point);
   }
   return {};
 }

@@ -97,15 +97,15 @@ Result<void> refuse_single_options(const SolveArguments& arguments, const std::s
 Result<std::vector<Index>> vertices_of_each(const EachSource& each, const std::string& option) {
   std::vector<Index> vertices;
   for (const SourceSet& set : each.sets) {
-    const bool is_vertex = set.edges.empty() && set.segments.empty() && set.cell_points.empty() &&
-                           set.points.size() == 1 && set.points.front().is_vertex();
+    const SurfacePoint* const point = only_point(set);
+    const bool is_vertex = point != nullptr && point->is_vertex();
     if (!is_vertex || !set.offsets.empty()) {
       return Error{ErrorCode::kBadInput,
                    option + " " + std::to_string(vertices.size() + 1) +
                        (is_vertex ? " has an offset" : " is no vertex"),
                    {"distances are between vertices, such as 3,99,512 or random:20"}};
     }
-    vertices.push_back(set.points.front().vertex);
+    vertices.push_back(point->vertex);
   }
   return vertices;
 }

@@ -43,8 +43,7 @@ void add_places(const ResolvedSources& placed, int entry, const Model& model,
   const auto add = [&](const SurfacePoint& point, bool alone) {
     places.push_back({entry, point, position_at(mesh, point), alone});
   };
-  const bool alone =
-      placed.set.points.size() == 1 && placed.set.edges.empty() && placed.set.segments.empty();
+  const bool alone = only_point(placed.set) != nullptr;
   for (const SurfacePoint& point : placed.set.points) add(point, alone);
   for (const auto& edge : placed.set.edges) {
     for (const Index v : edge) add(SurfacePoint::at_vertex(v), false);

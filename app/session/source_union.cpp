@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Source sets as wholes: several as one, and the vertices of one.
+// Source sets as wholes: several as one, and what one is made of.
 #include <algorithm>
 #include <map>
 #include <set>
@@ -43,6 +43,11 @@ SourceSet SetUnion::take() {
   edges_.clear();
   curves_ = 0;
   return std::exchange(set_, {});
+}
+
+const SurfacePoint* only_point(const SourceSet& set) {
+  const bool other = !set.edges.empty() || !set.segments.empty() || !set.cell_points.empty();
+  return other || set.points.size() != 1 ? nullptr : &set.points.front();
 }
 
 std::vector<Index> vertices_of(const SourceSet& set) {

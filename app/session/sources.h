@@ -112,8 +112,7 @@ Result<SourceSpec> parse_space_point(const std::array<std::string_view, 3>& numb
 Result<std::vector<Source>> read_source_file(const std::string& path, bool curve);
 
 /// Puts sources together into one set: no vertex and no edge twice, and curves across faces with
-/// numbers of their own. A vertex keeps its smallest
-/// offset.
+/// numbers of their own. A vertex keeps its smallest offset.
 class SetUnion {
  public:
   void add(const SurfacePoint& point, double offset);
@@ -170,6 +169,10 @@ Result<std::vector<Index>> random_vertices(const SourceSpace& space, Index count
 
 /// Whether the pinned vertex, where one is named, is on the mesh. Errors: kBadInput.
 Result<void> check_pin(const Constraint& constraint, const SourceSpace& space);
+
+/// The point of a triangle mesh that is all of a set, whatever its offset; null where it is not
+/// one.
+const SurfacePoint* only_point(const SourceSet& set);
 
 /// All vertices of a set, ends of edges included, ascending, each once.
 std::vector<Index> vertices_of(const SourceSet& set);

@@ -2,11 +2,14 @@
 #include "geotherm/mesh.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <limits>
 #include <new>
 #include <string>
 #include <utility>
 
+#include "geotherm/sources.h"
 #include "solver/mesh/connectivity.h"
 
 namespace geotherm {
@@ -77,6 +80,16 @@ Result<void> check(std::int64_t faces, int times) {
                 std::to_string(result) + " faces"}};
 }
 
+/// Weights of a point of a face in its part at `corner`, in the middle one where that is 3.
+std::array<double, 3> in_part(const std::array<double, 3>& weights, int corner) {
+  std::array<double, 3> inner{};
+  for (int k = 0; k < 3; ++k) {
+    inner[k] = std::max(0.0, corner == 3 ? 1 - 2 * weights[previous_corner(k)]
+                                         : 2 * weights[k] - (k == corner ? 1 : 0));
+  }
+  return inner;
+}
+
 }  // namespace
 
 Result<TriangleMesh> subdivide(const TriangleMesh& mesh, int times) try {
@@ -96,19 +109,51 @@ Result<TriangleMesh> subdivide(const TriangleMesh& mesh, int times) try {
 SurfacePoint subdivided_point(SurfacePoint point, int times) {
   if (point.is_vertex()) return point;
   for (int i = 0; i < times; ++i) {
-    const std::array<double, 3> w = point.weights;
-    const auto corner = std::ranges::find_if(w, [](double x) { return x >= 0.5; }) - w.begin();
+    const auto corner = std::ranges::find_if(point.weights, [](double x) { return x >= 0.5; }) -
+                        point.weights.begin();
     point.face = 4 * point.face + static_cast<Index>(corner);  // 3: the part in the middle
-    if (corner == 3) {
-      for (int k = 0; k < 3; ++k) point.weights[k] = std::max(0.0, 1 - 2 * w[previous_corner(k)]);
-      continue;
-    }
-    for (int k = 0; k < 3; ++k) point.weights[k] = k == corner ? 2 * w[k] - 1 : 2 * w[k];
+    point.weights = in_part(point.weights, static_cast<int>(corner));
   }
   // The sum of weights may have been off by a rounding error, which every step doubles.
   const double sum = point.weights[0] + point.weights[1] + point.weights[2];
   for (double& w : point.weights) w /= sum;
   return point;
+}
+
+std::vector<FaceSegment> subdivided_segment(const FaceSegment& segment, int times) {
+  const auto at = [&segment](double share) {
+    SurfacePoint point = SurfacePoint::in_face(segment.face, {});
+    for (std::size_t k = 0; k < 3; ++k) {
+      point.weights[k] = (1 - share) * segment.from[k] + share * segment.to[k];
+    }
+    return point;
+  };
+  // Parts end where a weight is a multiple of 1 / 2^times.
+  const double parts = std::ldexp(1.0, times);
+  std::vector<double> cuts = {0, 1};
+  for (std::size_t k = 0; k < 3; ++k) {
+    const double from = parts * segment.from[k], to = parts * segment.to[k];
+    const double last = std::max(from, to);
+    for (double level = std::ceil(std::min(from, to)); from != to && level <= last; ++level) {
+      cuts.push_back(std::clamp((level - from) / (to - from), 0.0, 1.0));
+    }
+  }
+  std::ranges::sort(cuts);
+  constexpr double kNothing = 1e-12;
+  std::vector<FaceSegment> out;
+  for (std::size_t i = 1; i < cuts.size(); ++i) {
+    const double begin = cuts[i - 1], length = cuts[i] - begin;
+    if (length < kNothing) continue;
+    // The part is told by the middle; ends lie on its border, where rounding would choose.
+    const Index part = subdivided_point(at(begin + length / 2), times).face;
+    const auto inside = [&](double share) {
+      auto weights = at(share).weights;
+      for (int step = times; step-- > 0;) weights = in_part(weights, part >> (2 * step) & 3);
+      return weights;
+    };
+    out.push_back({part, inside(begin), inside(cuts[i]), segment.curve});
+  }
+  return out;
 }
 
 std::vector<Index> subdivided_side(std::span<const Face> faces, Index f, int k, int times) {

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "solver/method/mapped_method.h"
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <new>
@@ -30,54 +29,6 @@ SourceSet with_standing(const TriangleMesh& mesh, SourceSet sources) {
     for (Index& end : edge) end = standing_for(mesh, end);
   }
   return sources;
-}
-
-/// Weights of a point of a face in one of its parts, numbered as subdivided_point() numbers them.
-std::array<double, 3> in_part(std::array<double, 3> weights, Index part, int times) {
-  for (int i = times; i-- > 0;) {
-    const int corner = part >> (2 * i) & 3;
-    std::array<double, 3> inner{};
-    for (int k = 0; k < 3; ++k) {
-      const double of_middle = 1 - 2 * weights[previous_corner(k)];
-      const double of_corner = 2 * weights[k] - (k == corner ? 1 : 0);
-      inner[k] = std::max(0.0, corner == 3 ? of_middle : of_corner);
-    }
-    weights = inner;
-  }
-  return weights;
-}
-
-/// A piece of a curve in the parts of its face that it crosses.
-std::vector<FaceSegment> subdivided_segment(const FaceSegment& segment, int times) {
-  const auto at = [&segment](double share) {
-    SurfacePoint point = SurfacePoint::in_face(segment.face, {});
-    for (std::size_t k = 0; k < 3; ++k) {
-      point.weights[k] = (1 - share) * segment.from[k] + share * segment.to[k];
-    }
-    return point;
-  };
-  // Parts end where a weight is a multiple of 1 / 2^times.
-  const double parts = std::ldexp(1.0, times);
-  std::vector<double> cuts = {0, 1};
-  for (std::size_t k = 0; k < 3; ++k) {
-    const double from = parts * segment.from[k], to = parts * segment.to[k];
-    const double last = std::max(from, to);
-    for (double level = std::ceil(std::min(from, to)); from != to && level <= last; ++level) {
-      cuts.push_back(std::clamp((level - from) / (to - from), 0.0, 1.0));
-    }
-  }
-  std::ranges::sort(cuts);
-  constexpr double kNothing = 1e-12;
-  std::vector<FaceSegment> out;
-  for (std::size_t i = 1; i < cuts.size(); ++i) {
-    const double begin = cuts[i - 1], length = cuts[i] - begin;
-    if (length < kNothing) continue;
-    // The part is told by the middle; ends lie on its border, where rounding would choose.
-    const Index part = subdivided_point(at(begin + length / 2), times).face;
-    out.push_back({part, in_part(at(begin).weights, part, times),
-                   in_part(at(cuts[i]).weights, part, times), segment.curve});
-  }
-  return out;
 }
 
 template <class Value>

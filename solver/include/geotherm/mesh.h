@@ -15,6 +15,8 @@
 // both are numbered from 0 in the order of the file or of the arrays given.
 namespace geotherm {
 
+struct FaceSegment;
+
 /// An immutable triangle mesh, exactly as its file or generator gave it.
 ///
 /// Positions: V x 3, finite, model units. Faces: F x 3, every corner in [0, V). Nothing else is
@@ -131,6 +133,9 @@ Result<TriangleMesh> subdivide(const TriangleMesh& mesh, int times);
 /// so that points on edges stay on edges. Preconditions: weights >= 0 that sum to 1, a face that
 /// repeats no corner.
 SurfacePoint subdivided_point(SurfacePoint point, int times);
+
+/// A straight line in a face (sources.h) in the parts that it crosses, in order.
+std::vector<FaceSegment> subdivided_segment(const FaceSegment& segment, int times);
 
 /// The vertices along side k of face f of the mesh that became `faces`, from corner k to the next:
 /// 2^times + 1. Precondition: the face repeats no corner.
