@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: MIT
-// Poisson systems by PETSc, and windows of conjugate gradients. What all backends must do, and that
-// their distances agree, is tested for the registry.
+// Poisson systems by PETSc, windows of conjugate gradients and their multigrid. What all backends
+// must do, and that their distances agree, is tested for the registry.
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "solver/linear/mpi_module.h"
+#include "solver/linear/multigrid.h"
 #include "solver/linear/window_solver.h"
 #include "tests/linear/backend_fixture.h"
 
@@ -56,6 +59,21 @@ TEST_F(Petsc, IsRightInComponentsOfAnySize) {
        std::vector<std::pair<Index, Index>>{{0, 441}, {441, third}, {third, torus_vertex + 1}}) {
     EXPECT_LE(relative_difference(part(petsc, begin, end), part(native, begin, end)), kAgree);
   }
+}
+
+TEST(MultigridLevels, TakeInTheNeighboursOfAHub) {
+  // Right angles at the hub: neighbours along the rim are not coupled, each with the hub alone.
+  constexpr int kValence = 3000;
+  Draft draft;
+  for (int i = 0; i < kValence; ++i) {
+    const double turn = i * 1e-3, up = i % 2 == 0 ? 1 : -1;
+    draft.add({std::cos(turn), std::sin(turn), up});
+    if (i > 0) draft.faces.push_back({i - 1, i, kValence});
+  }
+  draft.add({0, 0, 0});
+  const Analysed surface = analysed(*finish(draft), backend_named("cg"));
+  const FemOperator poisson(surface.operators, 1, 1000);
+  EXPECT_NE(Multigrid::build(poisson), nullptr);
 }
 
 TEST(Windows, HaveTheAnswersOfTheWholeMatrix) {
