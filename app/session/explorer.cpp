@@ -93,7 +93,7 @@ Result<std::vector<Warning>> Explorer::place_sources(const ExploreRequest& reque
       placed.push_back(*known);
     } else {
       const Source named{source, "source " + shortened(to_text(source)), ErrorCode::kBadInput};
-      auto places = resolve_sources({&named, 1}, read_->model);
+      auto places = resolve_sources({&named, 1}, {read_->model, &*joiner_});
       if (!places) return places.error();
       placed.push_back({source, *std::move(places)});
     }
@@ -120,6 +120,7 @@ Result<void> Explorer::load(const ExploreRequest& request, const Progress& progr
   // What belonged to the old model goes before the new one needs the room.
   solver_.reset();
   placed_.clear();
+  joiner_.emplace(loaded->mesh);
   pose_ = {};
   rest_ = {};
   sequence_.reset();

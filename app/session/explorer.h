@@ -10,6 +10,7 @@
 #include "app/session/model_solver.h"
 #include "app/session/sculpture.h"
 #include "app/session/sources.h"
+#include "app/session/surface_curve.h"
 #include "geotherm/progress.h"
 #include "solver/mesh/frames.h"
 
@@ -112,7 +113,8 @@ class Explorer {
     SourceSpec source;
     ResolvedSources places;
   };
-  std::vector<Placed> placed_;  ///< entries of the last request, in their order
+  std::vector<Placed> placed_;         ///< entries of the last request, in their order
+  std::optional<CurveJoiner> joiner_;  ///< of `read_`
 };
 
 }  // namespace geotherm::app

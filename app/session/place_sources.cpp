@@ -172,8 +172,8 @@ class Resolver {
       if (point.face >= mesh_.face_count()) return (*this)(point);  // says what is wrong
       points.push_back(SurfacePoint::in_face(point.face, point.weights));
     }
-    // Whoever places sources keeps the mesh meanwhile.
-    auto segments = join_across_faces({std::shared_ptr<void>(), &mesh_}, points);
+    CurveJoiner& joiner = space_.joiner != nullptr ? *space_.joiner : own_joiner_;
+    auto segments = joiner.join(points);
     if (!segments) return segments.error();
     if (segments->empty()) return (*this)(curve.points.front());
     SourceSet whole;
@@ -277,6 +277,8 @@ class Resolver {
   const TriangleMesh& mesh_;
   std::vector<char> used_;
   std::optional<CleanFaces> clean_;
+  /// Whoever places sources keeps the mesh meanwhile.
+  CurveJoiner own_joiner_{std::shared_ptr<const TriangleMesh>(std::shared_ptr<void>(), &mesh_)};
   double size_ = -1;
   std::string where_;
   SetUnion set_;

@@ -21,6 +21,8 @@
 
 namespace geotherm::app {
 
+class CurveJoiner;
+
 // What a source is called before the mesh is known. Text forms: `17`, `3,99,512`,
 // `curve:V1,V2,...`, `curve:face:ID:b0:b1:b2,...`, `random:K[:SEED]`, `boundary`,
 // `face:ID:b0:b1:b2`, `xyz:x:y:z`, `sample:i:j[:k]`; those of points may end in `@OFFSET`, the
@@ -48,7 +50,7 @@ struct FacePoint {
 };
 
 /// A polyline of points in faces, all of which is a source; two that follow each other are joined
-/// straight across the faces between them (join_across_faces()). One point is that.
+/// straight across the faces between them (CurveJoiner). One point is that.
 struct SurfaceCurve {
   std::vector<FacePoint> points;  ///< without offsets
   bool operator==(const SurfaceCurve&) const = default;
@@ -132,9 +134,11 @@ class SetUnion {
 struct SourceSpace {
   const TriangleMesh& mesh;
   const Space* space = nullptr;
+  CurveJoiner* joiner = nullptr;  ///< of `mesh`; null: each call has its own
 
-  SourceSpace(const TriangleMesh& surface) : mesh(surface) {}                       // NOLINT
-  SourceSpace(const Model& model) : mesh(*model.mesh), space(model.space.get()) {}  // NOLINT
+  SourceSpace(const TriangleMesh& surface) : mesh(surface) {}     // NOLINT
+  SourceSpace(const Model& model, CurveJoiner* curves = nullptr)  // NOLINT
+      : mesh(*model.mesh), space(model.space.get()), joiner(curves) {}
 };
 
 struct ResolvedSources {

@@ -53,35 +53,56 @@ std::array<double, 3> weights_in(const PathSurface& surface, const SurfacePoint&
   return surface.out_of(inside).weights;
 }
 
+/// Adds the line from one point to the next; false: no edges lead there.
+Result<bool> join_two(const PathSurface& surface, const SurfacePoint& a, const SurfacePoint& b,
+                      std::vector<FaceSegment>& out) {
+  const auto from = surface.into(a), to = surface.into(b);
+  if (!from || !to) return (from ? to : from).error();
+  std::vector<Index> strip = faces_between(surface, *from, *to);
+  if (strip.empty()) return false;
+  auto segments = pull_tight(surface, *from, *to, std::move(strip));
+  const Progress nobody;
+  StepBudget budget(surface, nobody);
+  if (auto done = straighten_bends(surface, segments, budget); !done) return done.error();
+  std::vector<SurfacePoint> line = {*from};
+  std::vector<Index> faces;
+  for (const PathSegment& segment : segments) append_points(surface, segment, line, faces);
+  for (std::size_t k = 0; k < faces.size(); ++k) {
+    out.push_back({surface.file_face(faces[k]), weights_in(surface, line[k], faces[k]),
+                   weights_in(surface, line[k + 1], faces[k])});
+  }
+  return true;
+}
+
 }  // namespace
 
-Result<std::vector<FaceSegment>> join_across_faces(std::shared_ptr<const TriangleMesh> mesh,
-                                                   const std::vector<SurfacePoint>& points) {
-  const PathSurface surface(std::move(mesh));
-  const Progress nobody;
-  std::vector<FaceSegment> out;
-  for (std::size_t i = 1; i < points.size(); ++i) {
-    const auto from = surface.into(points[i - 1]), to = surface.into(points[i]);
-    if (!from || !to) return (from ? to : from).error();
-    std::vector<Index> strip = faces_between(surface, *from, *to);
-    if (strip.empty()) {
-      return Error{ErrorCode::kBadInput,
-                   "no edges lead from point " + std::to_string(i) + " of the curve to point " +
-                       std::to_string(i + 1),
-                   {"begin another curve there"}};
+CurveJoiner::CurveJoiner(std::shared_ptr<const TriangleMesh> mesh) : mesh_(std::move(mesh)) {}
+CurveJoiner::CurveJoiner(CurveJoiner&&) noexcept = default;
+CurveJoiner& CurveJoiner::operator=(CurveJoiner&&) noexcept = default;
+CurveJoiner::~CurveJoiner() = default;
+
+Result<std::vector<FaceSegment>> CurveJoiner::join(const std::vector<SurfacePoint>& points) {
+  if (!surface_) surface_ = std::make_unique<const PathSurface>(mesh_);
+  const auto same =
+      static_cast<std::size_t>(std::ranges::mismatch(points_, points).in1 - points_.begin());
+  points_.resize(same);
+  ends_.resize(same);
+  segments_.resize(ends_.empty() ? 0 : ends_.back());
+  for (std::size_t i = same; i < points.size(); ++i) {
+    if (i > 0) {
+      const auto joined = join_two(*surface_, points[i - 1], points[i], segments_);
+      if (!joined) return joined.error();
+      if (!*joined) {
+        return Error{ErrorCode::kBadInput,
+                     "no edges lead from point " + std::to_string(i) + " of the curve to point " +
+                         std::to_string(i + 1),
+                     {"begin another curve there"}};
+      }
     }
-    auto segments = pull_tight(surface, *from, *to, std::move(strip));
-    StepBudget budget(surface, nobody);
-    if (auto done = straighten_bends(surface, segments, budget); !done) return done.error();
-    std::vector<SurfacePoint> line = {*from};
-    std::vector<Index> faces;
-    for (const PathSegment& segment : segments) append_points(surface, segment, line, faces);
-    for (std::size_t k = 0; k < faces.size(); ++k) {
-      out.push_back({surface.file_face(faces[k]), weights_in(surface, line[k], faces[k]),
-                     weights_in(surface, line[k + 1], faces[k])});
-    }
+    points_.push_back(points[i]);
+    ends_.push_back(segments_.size());
   }
-  return out;
+  return segments_;
 }
 
 }  // namespace geotherm::app

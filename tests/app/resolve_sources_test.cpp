@@ -3,8 +3,11 @@
 
 #include <gtest/gtest.h>
 
+#include <memory>
 #include <set>
 
+#include "app/session/surface_curve.h"
+#include "geotherm/path.h"
 #include "tests/support/shapes.h"
 
 namespace geotherm::test {
@@ -139,6 +142,31 @@ TEST(Sources, AlongACurveAcrossFacesAreStraightBetweenItsPoints) {
   ASSERT_TRUE(two);
   EXPECT_EQ(two->set.segments.size(), 1U);
   EXPECT_EQ(two->set.points.size(), 1U) << "a curve of one point";
+}
+
+TEST(Sources, AlongACurveThatGoesOnAreThoseOfTheWholeCurve) {
+  const auto mesh = std::make_shared<const TriangleMesh>(grid());
+  const auto at = [](Index face) { return SurfacePoint::in_face(face, {0.3, 0.4, 0.3}); };
+  const std::vector<SurfacePoint> all = {at(0), at(5), at(14), at(3)};
+  const auto whole = CurveJoiner(mesh).join(all);
+  ASSERT_TRUE(whole);
+  ASSERT_GT(whole->size(), 3U);
+  CurveJoiner joiner(mesh);
+  EXPECT_TRUE(joiner.join({at(9), at(2)}));
+  for (const std::size_t count : {1, 2, 4, 3, 4}) {  // one that is taken back among them
+    const auto part = joiner.join({all.begin(), all.begin() + static_cast<std::ptrdiff_t>(count)});
+    ASSERT_TRUE(part);
+    ASSERT_LE(part->size(), whole->size());
+    EXPECT_EQ(part->size() == whole->size(), count == all.size());
+    for (std::size_t k = 0; k < part->size(); ++k) {
+      EXPECT_EQ((*part)[k].face, (*whole)[k].face);
+      EXPECT_EQ((*part)[k].from, (*whole)[k].from);
+      EXPECT_EQ((*part)[k].to, (*whole)[k].to);
+    }
+  }
+  const auto lost = joiner.join({all[0], at(mesh->face_count())});
+  EXPECT_FALSE(lost);
+  EXPECT_EQ(joiner.join(all)->size(), whole->size()) << "after one that failed";
 }
 
 TEST(Sources, AlongACurveOfTextThatDoNotFitAreRefusedWithTheirNumber) {
