@@ -46,8 +46,9 @@ Result<void> stream_answers(const DistanceMethod& method, std::span<const Source
   QueryOptions query = options.query;
   Answers waiting;
   std::size_t first_waiting = 0;
-  for (std::size_t first = 0; first < sets.size(); first += chunk) {
-    const std::size_t size = std::min(chunk, sets.size() - first);
+  std::size_t size = 0;
+  for (std::size_t first = 0; first < sets.size(); first += size) {
+    size = std::min(query.quality ? std::min(chunk, kSetsWithQuality) : chunk, sets.size() - first);
     const Progress part = part_of(progress, static_cast<double>(first) / count,
                                   static_cast<double>(first + size) / count);
     Result<void> taken;
