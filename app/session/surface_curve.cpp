@@ -76,13 +76,8 @@ Result<bool> join_two(const PathSurface& surface, const SurfacePoint& a, const S
 
 }  // namespace
 
-CurveJoiner::CurveJoiner(std::shared_ptr<const TriangleMesh> mesh) : mesh_(std::move(mesh)) {}
-CurveJoiner::CurveJoiner(CurveJoiner&&) noexcept = default;
-CurveJoiner& CurveJoiner::operator=(CurveJoiner&&) noexcept = default;
-CurveJoiner::~CurveJoiner() = default;
-
 Result<std::vector<FaceSegment>> CurveJoiner::join(const std::vector<SurfacePoint>& points) {
-  if (!surface_) surface_ = std::make_unique<const PathSurface>(mesh_);
+  if (!surface_) surface_ = std::make_shared<const PathSurface>(mesh_);
   const auto same =
       static_cast<std::size_t>(std::ranges::mismatch(points_, points).in1 - points_.begin());
   points_.resize(same);

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "geotherm/error.h"
@@ -19,10 +20,7 @@ namespace app {
 /// goes on, as one that is painted does, costs its new pieces alone.
 class CurveJoiner {
  public:
-  explicit CurveJoiner(std::shared_ptr<const TriangleMesh> mesh);
-  CurveJoiner(CurveJoiner&&) noexcept;
-  CurveJoiner& operator=(CurveJoiner&&) noexcept;
-  ~CurveJoiner();
+  explicit CurveJoiner(std::shared_ptr<const TriangleMesh> mesh) : mesh_(std::move(mesh)) {}
 
   /// The points joined by lines that are as straight as the surface lets them be: each is pulled
   /// tight within the fewest faces between two points, and led past vertices where that makes it
@@ -34,7 +32,7 @@ class CurveJoiner {
 
  private:
   std::shared_ptr<const TriangleMesh> mesh_;
-  std::unique_ptr<const PathSurface> surface_;  ///< from the first curve on
+  std::shared_ptr<const PathSurface> surface_;  ///< from the first curve on
   std::vector<SurfacePoint> points_;            ///< of the last curve, as far as they were joined
   std::vector<std::size_t> ends_;               ///< how many segments lead to each of them
   std::vector<FaceSegment> segments_;
