@@ -265,9 +265,10 @@ Result<ManyFigures> solve_share(const ManySources& work, const SolveArguments& a
   if (of_answers.size() > kMaxWarnings) {
     const auto more = static_cast<std::int64_t>(of_answers.size() - kMaxWarnings);
     of_answers.resize(kMaxWarnings);
-    of_answers.push_back(
-        {"and " + counted(more, "more such warning", "more such warnings") + " about the first " +
-         counted(static_cast<std::int64_t>(kSetsWithQuality), "source", "sources")});
+    of_answers.push_back({"and " + counted(more, "more such warning", "more such warnings") +
+                          " about the first " +
+                          counted(static_cast<std::int64_t>(std::min(kSetsWithQuality, work.chunk)),
+                                  "source", "sources")});
   }
   if (work.model.space) name_rival(*work.model.space, of_answers);
   add_warnings(figures.warnings, of_answers);

@@ -24,7 +24,7 @@ inline constexpr std::string_view kSourcesStage = "sources";
 /// of the sets. An error ends the work.
 using AnswerSink = std::function<Result<void>(std::size_t set, DistanceResult&& answer)>;
 
-/// Source sets of a stream whose answers have quality figures: a block of the heat method.
+/// Source sets of a stream whose answers have quality figures, at most: a block of the heat method.
 inline constexpr std::size_t kSetsWithQuality = 16;
 
 /// How a stream of answers is cut into chunks.
@@ -33,9 +33,9 @@ struct StreamOptions {
   /// that is solved, one that is taken. In multiples of sixteen the answers of the heat method have
   /// the bits of one call for all sets, in other chunks they agree to round-off.
   std::size_t chunk = 16;
-  /// What each query computes beside the distances; the quality figures for the first
-  /// kSetsWithQuality sets alone, where they tell whether mesh and options suit each other. They
-  /// would cost every answer a pass over the faces.
+  /// What each query computes beside the distances; the quality figures in the first chunk alone,
+  /// which has kSetsWithQuality sets at most: they tell whether mesh and options suit each other,
+  /// and would cost every answer a pass over the faces.
   QueryOptions query{};
 };
 
