@@ -157,8 +157,9 @@ class Batch {
   BatchSums sums_;
 };
 
-/// The tasks of a rank: large models first, dealt out in turn.
-std::vector<BatchTask> share_of(std::vector<BatchTask> tasks, const Ranks& ranks) {
+/// The tasks of a rank: large models first, dealt out in turn. Errors (the same on all): kBadFile,
+/// not all see the same files, so that some would be solved twice or by nobody.
+Result<std::vector<BatchTask>> share_of(std::vector<BatchTask> tasks, const Ranks& ranks) {
   if (ranks.alone()) return tasks;
   const auto bytes = [](const BatchTask& task) {
     std::error_code unknown;
@@ -166,6 +167,17 @@ std::vector<BatchTask> share_of(std::vector<BatchTask> tasks, const Ranks& ranks
     return unknown ? 0 : size;
   };
   std::ranges::stable_sort(tasks, std::greater(), bytes);
+  std::string seen;
+  for (const BatchTask& task : tasks) seen += task.model + '\n';
+  Result<void> same;
+  if (ranks.exchange(seen).front() != seen) {
+    same = Error{ErrorCode::kBadFile,
+                 "rank " + std::to_string(ranks.rank()) +
+                     " sees other models, or of other sizes, than the first one (" +
+                     counted(std::ssize(tasks), "model", "models") + " here)",
+                 {"start it again when the files are the same on all machines"}};
+  }
+  if (auto all = ranks.agree(same); !all) return all.error();
   std::vector<BatchTask> share;
   for (auto i = static_cast<std::size_t>(ranks.rank()); i < tasks.size();
        i += static_cast<std::size_t>(ranks.count())) {
@@ -263,8 +275,9 @@ Result<CommandOutput> run_batch(const BatchArguments& arguments, const Progress&
 
   const Stopwatch watch;
   const Manifest manifest((std::filesystem::path(arguments.folder) / "manifest.jsonl").string());
-  const std::vector<BatchTask> share = share_of(*std::move(tasks), *ranks);
-  const auto ours = ranks->agree_on(Batch(share, manifest, *jobs).run(progress));
+  const auto share = share_of(*std::move(tasks), *ranks);
+  if (!share) return share.error();
+  const auto ours = ranks->agree_on(Batch(*share, manifest, *jobs).run(progress));
   if (!ours) return ours.error();
   const BatchSums sums = sum_of(ranks->exchange(text_of(*ours)));
   CommandOutput out;

@@ -88,17 +88,20 @@ SampleCrew crew_of(const DistanceMethod& method, const Ranks& ranks, bool& faile
     if (ours < vertices.size()) {
       mine = method.solve(SourceSet::of_vertices({vertices[ours]}), query, progress);
     }
-    mine = ranks.agree_on(std::move(mine));
-    failed = !mine;
-    if (!mine) return mine.error();
-    const std::span<const double> row = mine->distances;
-    const auto rows =
-        ranks.exchange(std::string(reinterpret_cast<const char*>(row.data()), row.size_bytes()));
+    const auto bytes = [&mine]() -> Result<std::string> {
+      if (!mine) return mine.error();
+      const std::span<const double> row = mine->distances;
+      return std::string(reinterpret_cast<const char*>(row.data()), row.size_bytes());
+    };
+    const auto rows = ranks.exchange_or_fail(bytes());
+    failed = !rows;
+    if (!rows) return rows.error();
     std::vector<DistanceResult> all(vertices.size());
     if (ours == 0) all.front() = *std::move(mine);
     for (std::size_t i = 0; i < all.size(); ++i) {
-      all[i].distances.resize(rows[i].size() / sizeof(double));
-      std::memcpy(all[i].distances.data(), rows[i].data(), rows[i].size());
+      const std::string& row = (*rows)[i];
+      all[i].distances.resize(row.size() / sizeof(double));
+      std::memcpy(all[i].distances.data(), row.data(), row.size());
     }
     return all;
   };
@@ -118,7 +121,7 @@ Result<FarthestPoints> take_samples(const DistanceMethod& method, const Triangle
   bool failed = false;
   auto points =
       farthest_points_by(crew_of(method, *ranks, failed), mesh, task.count, {task.first}, told);
-  // What one of them met between queries, the others must know of before they wait for it.
+  // What one of them met between queries, the others hear where they hand their rows around next.
   return failed ? std::move(points) : ranks->agree_on(std::move(points));
 }
 

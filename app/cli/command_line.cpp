@@ -7,10 +7,12 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <chrono>
 #include <cstdio>
 #include <filesystem>
 #include <functional>
 #include <system_error>
+#include <thread>
 
 #include "app/cli/commands.h"
 #include "app/session/model.h"
@@ -28,8 +30,12 @@ namespace {
 bool is_first_rank() { return launched_as().rank == 0; }
 
 int fail(int code, const std::string& message) {
-  // Before MPI is there, the launcher would end the first one for this before it has spoken.
-  if (!is_first_rank()) return mpi_is_started() ? code : 0;
+  if (!is_first_rank()) {
+    if (mpi_is_started()) return code;
+    // The first one speaks, and the launcher ends this one for it within a second or so; unless it
+    // has nothing to say and waits for this one where MPI starts.
+    std::this_thread::sleep_for(std::chrono::seconds(3));
+  }
   std::fprintf(stderr, "geotherm: error: %s\n", one_line(message).c_str());
   return code;
 }

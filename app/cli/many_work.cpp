@@ -27,15 +27,21 @@ constexpr std::size_t kMaxWarnings = 5;
 }  // namespace
 
 void RowSums::add(std::span<const double> row) {
+  constexpr double kSmaller = 0x1p-40;  // a sum could leave the range of doubles
+  RowSums of_row;
+  double sum = 0;
   for (const double d : row) {
     if (!std::isfinite(d)) {
-      ++unreached;
+      ++of_row.unreached;
       continue;
     }
-    least = std::min(least, d);
-    most = std::max(most, d);
-    mean += (d - mean) / ++reached;  // a sum could leave the range of doubles
+    of_row.least = std::min(of_row.least, d);
+    of_row.most = std::max(of_row.most, d);
+    sum += d * kSmaller;
   }
+  of_row.reached = static_cast<double>(row.size()) - static_cast<double>(of_row.unreached);
+  if (of_row.reached > 0) of_row.mean = sum / of_row.reached / kSmaller;
+  add(of_row);
 }
 
 void RowSums::add(const RowSums& more) {
@@ -234,6 +240,7 @@ Result<ManyFigures> solve_share(const ManySources& work, const SolveArguments& a
   StreamOptions stream;
   stream.chunk = work.chunk;
   stream.query.reach = work.reach;
+  stream.query.quality = work.ranks.is_first();  // of the others' answers nothing is reported
   std::vector<Warning> of_answers;
   std::optional<Error> not_taken;
   const auto sink = [&](std::size_t row, DistanceResult&& answer) -> Result<void> {

@@ -89,18 +89,24 @@ std::vector<std::string> Ranks::exchange(const std::string& mine) const {
   return all;
 }
 
-Result<void> Ranks::agree(const Result<void>& mine) const {
-  if (alone()) return mine;
-  std::string said;
-  if (!mine) said = std::to_string(static_cast<int>(mine.error().code)) + ' ' + told(mine.error());
-  const std::vector<std::string> all = exchange(said);
-  for (const std::string& each : all) {
-    if (each.empty()) continue;
+Result<std::vector<std::string>> Ranks::exchange_or_fail(const Result<std::string>& mine) const {
+  if (alone() && !mine) return mine.error();
+  if (alone()) return std::vector<std::string>{*mine};
+  // A blank before what is said; the code of an error before that.
+  const std::string code = mine ? "" : std::to_string(static_cast<int>(mine.error().code));
+  std::vector<std::string> all = exchange(code + ' ' + (mine ? *mine : told(mine.error())));
+  for (std::string& each : all) {
     const std::size_t blank = each.find(' ');
-    const auto code = number_in<int>(std::string_view(each).substr(0, blank));
-    return Error{static_cast<ErrorCode>(code.value_or(0)), each.substr(blank + 1)};
+    const auto failed = number_in<int>(std::string_view(each).substr(0, blank));
+    each.erase(0, blank + 1);
+    if (failed) return Error{static_cast<ErrorCode>(*failed), std::move(each)};
   }
-  return {};
+  return all;
+}
+
+Result<void> Ranks::agree(const Result<void>& mine) const {
+  const auto all = exchange_or_fail(mine ? Result<std::string>("") : mine.error());
+  return all ? Result<void>() : all.error();
 }
 
 }  // namespace geotherm::app

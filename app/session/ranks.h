@@ -41,6 +41,10 @@ class Ranks {
   /// What each rank has to say, in the order of the ranks, on all of them.
   std::vector<std::string> exchange(const std::string& mine) const;
 
+  /// The same, or the error of the lowest rank that has one instead, on all of them. Where one
+  /// waits in this and another in agree(), they hear of each other's error.
+  Result<std::vector<std::string>> exchange_or_fail(const Result<std::string>& mine) const;
+
   /// The error of the lowest rank that has one, on all of them: all go on or none does.
   Result<void> agree(const Result<void>& mine) const;
 

@@ -18,30 +18,35 @@ constexpr Index kDirect = 600;
 constexpr double kDamping = 0.66;
 
 /// Joins each unknown with the neighbour behind it of the strongest negative coupling that is still
-/// alone; where none is, with what the strongest of the others is joined to: coarse matrices have
+/// alone; where none is, with what the strongest of all others is joined to: coarse matrices have
 /// hubs, whose many neighbours would stay alone. Returns how many there are then.
 Index join_pairs(const LowerMatrix& matrix, std::vector<Index>& joined) {
   constexpr double kWeak = 0.02;  // of the diagonal: not worth joining
-  joined.assign(static_cast<std::size_t>(matrix.size()), kNoIndex);
+  struct Neighbour {
+    double coupling = 0;
+    Index at = kNoIndex;
+  };
+  std::vector<Neighbour> before(static_cast<std::size_t>(matrix.size()));  // the strongest
+  joined.assign(before.size(), kNoIndex);
   Index count = 0;
   for (Index j = 0; j < matrix.size(); ++j) {
-    if (joined[j] != kNoIndex) continue;
-    const double diagonal = matrix.value[static_cast<std::size_t>(matrix.start[j])];
-    double alone = kWeak * diagonal, strongest = alone;
-    Index partner = kNoIndex, other = kNoIndex;
+    const double weak = kWeak * matrix.value[static_cast<std::size_t>(matrix.start[j])];
+    Neighbour alone{.coupling = weak}, other = before[j];
+    if (!(other.coupling > weak)) other = alone;
     for (auto e = static_cast<std::size_t>(matrix.start[j]) + 1;
          e < static_cast<std::size_t>(matrix.start[j + 1]); ++e) {
       const Index i = matrix.row[e];
-      double& least = joined[i] == kNoIndex ? alone : strongest;
-      if (!(-matrix.value[e] > least)) continue;
-      least = -matrix.value[e];
-      (joined[i] == kNoIndex ? partner : other) = i;
+      const double coupling = -matrix.value[e];
+      if (coupling > before[i].coupling) before[i] = {coupling, j};
+      Neighbour& strongest = joined[i] == kNoIndex ? alone : other;
+      if (coupling > strongest.coupling) strongest = {coupling, i};
     }
-    if (partner == kNoIndex && other != kNoIndex) {
-      joined[j] = joined[other];
+    if (joined[j] != kNoIndex) continue;
+    if (alone.at == kNoIndex && other.at != kNoIndex) {
+      joined[j] = joined[other.at];
       continue;
     }
-    if (partner != kNoIndex) joined[partner] = count;
+    if (alone.at != kNoIndex) joined[alone.at] = count;
     joined[j] = count++;
   }
   return count;

@@ -50,18 +50,20 @@ refused 2 'works in one process' "$program" info bunny
 refused 2 'works in one process' "$program" solve bunny -s 0
 refused 2 'standard output' "$program" solve bunny -s 0,1 --each -o -
 refused 2 'no such file\|cannot' "$program" solve gone.ply -s 0,1 --each -o rows.npy
-# What one rank alone cannot do ends all: the others' model is whole, its disk is full.
+# What one rank alone cannot do ends all: the model of others is whole, its disk is full, it has no MPI.
 "$program" generate bunny -o bunny.ply >/dev/null
 mkdir other && head -c 20000 bunny.ply >other/bunny.ply
 cat >of_rank.sh <<'SH'
 case $1 in
   truncated) [ "$OMPI_COMM_WORLD_RANK" = 1 ] && cd other && set -- x "../rows.npy" ;;
   full) [ "$OMPI_COMM_WORLD_RANK" = 1 ] && ulimit -f 800 ;;
+  lone) [ "$OMPI_COMM_WORLD_RANK" = 1 ] && export GEOTHERM_MPI_MODULE=none ;;
 esac
 [ "$1" = x ] && out=$2 || out=rows.npy
 exec "$PROGRAM" solve bunny.ply -s random:40 --each --threads 1 -o "$out"
 SH
 PROGRAM=$program refused 2 'bunny.ply' sh of_rank.sh truncated
+PROGRAM=$program refused 2 'geotherm-mpi' sh of_rank.sh lone
 # Messages in shared memory would be files that are too large, too.
 OMPI_MCA_btl=self,tcp PROGRAM=$program refused 2 'cannot be written' sh of_rank.sh full
 [ -z "$(ls | grep rows.npy)" ] || fail "something of rows.npy was left: $(ls)"
@@ -118,6 +120,13 @@ for name in a b c d; do cmp single/$name.npy shared/$name.npy || fail "batch of 
 [ "$(wc -l <shared/manifest.jsonl)" = 5 ] || fail "the manifest: $(cat shared/manifest.jsonl)"
 [ "$(grep -c '"status":"done"' shared/manifest.jsonl)" = 4 ] || fail "the manifest: $(cat shared/manifest.jsonl)"
 rm set/e.ply
+# A machine that does not see one of the files yet.
+mkdir late && cp set/[abc].ply late
+cat >late.sh <<'SH'
+[ "$OMPI_COMM_WORLD_RANK" = 1 ] && cd late && mkdir -p set && mv ./*.ply set
+exec "$PROGRAM" batch 'set/?.ply' -s 0,5 --each --out-dir "$1"
+SH
+PROGRAM=$program refused 2 'rank 1 sees other models.*3 models' sh late.sh "$PWD/shared"
 ranks 2 "$program" batch 'set/?.ply' -s 0,5 --each --out-dir shared --json again.json >/dev/null
 grep -q '"done_before": 4' again.json || fail "done twice: $(cat again.json)"
 echo "ranks: all checked"

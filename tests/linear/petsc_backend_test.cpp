@@ -64,16 +64,21 @@ TEST_F(Petsc, IsRightInComponentsOfAnySize) {
 TEST(MultigridLevels, TakeInTheNeighboursOfAHub) {
   // Right angles at the hub: neighbours along the rim are not coupled, each with the hub alone.
   constexpr int kValence = 3000;
-  Draft draft;
-  for (int i = 0; i < kValence; ++i) {
-    const double turn = i * 1e-3, up = i % 2 == 0 ? 1 : -1;
-    draft.add({std::cos(turn), std::sin(turn), up});
-    if (i > 0) draft.faces.push_back({i - 1, i, kValence});
+  for (const bool hub_first : {true, false}) {
+    Draft draft;
+    if (hub_first) draft.add({0, 0, 0});
+    const auto begin = static_cast<Index>(draft.positions.size());
+    for (int i = 0; i < kValence; ++i) {
+      const double turn = i * 1e-3, up = i % 2 == 0 ? 1 : -1;
+      draft.add({std::cos(turn), std::sin(turn), up});
+      const Index hub = hub_first ? 0 : kValence;
+      if (i > 0) draft.faces.push_back({begin + i - 1, begin + i, hub});
+    }
+    if (!hub_first) draft.add({0, 0, 0});
+    const Analysed surface = analysed(*finish(draft), backend_named("cg"));
+    const FemOperator poisson(surface.operators, 1, 1000);
+    EXPECT_NE(Multigrid::build(poisson), nullptr) << (hub_first ? "first" : "last");
   }
-  draft.add({0, 0, 0});
-  const Analysed surface = analysed(*finish(draft), backend_named("cg"));
-  const FemOperator poisson(surface.operators, 1, 1000);
-  EXPECT_NE(Multigrid::build(poisson), nullptr);
 }
 
 TEST(Windows, HaveTheAnswersOfTheWholeMatrix) {
