@@ -37,11 +37,13 @@ FemOperator::FemOperator(std::shared_ptr<const OperatorMesh> mesh, double mass_f
   for (const Index i : this->held()) diagonal_[i] = 1;
 }
 
-RawVector<double> FemOperator::side_weights() const {
+RawVector<double> FemOperator::side_weights(std::span<const char> wanted) const {
   RawVector<double> weight(3 * mesh_->faces.size());
   parallel_for(
       threads_, mesh_->face_count(), kMinRowsPerThread, [&](std::int64_t begin, std::int64_t end) {
         for (auto f = static_cast<std::size_t>(begin); f < static_cast<std::size_t>(end); ++f) {
+          const auto [i, j, k] = mesh_->faces[f];
+          if (!wanted.empty() && (wanted[i] | wanted[j] | wanted[k]) == 0) continue;
           const std::array<double, 3> w = weights(f);
           std::ranges::copy(w, weight.data() + 3 * f);
         }
@@ -213,16 +215,20 @@ std::vector<ColumnSet> FemOperator::columns_beside(std::span<const ColumnSet> se
 }
 
 const LowerMatrix& FemOperator::assembled() const {
-  if (!assembled_.value.empty()) return assembled_;
+  return has_all_ ? assembled_ : assembled_where({});
+}
+
+const LowerMatrix& FemOperator::assembled_where(std::span<const char> wanted) const {
   assembled_.start = mesh_->lower.start;
   assembled_.row = mesh_->lower.row;
-  const RawVector<double> weight = side_weights();
-  assembled_.value.resize(assembled_.row.size());
+  const RawVector<double> weight = side_weights(wanted);
+  assembled_.value.assign(assembled_.row.size(), 0.0);
   parallel_for(threads_, size(), kMinRowsPerThread, [&](std::int64_t begin, std::int64_t end) {
     for (auto j = static_cast<Index>(begin); j < static_cast<Index>(end); ++j) {
-      assemble_column(j, weight);
+      if (wanted.empty() || wanted[j] != 0) assemble_column(j, weight);
     }
   });
+  has_all_ = wanted.empty();
   return assembled_;
 }
 

@@ -31,6 +31,7 @@ class FemOperator final : public DomainOperator {
   Kernel kernel() const override;
   std::uint64_t pattern() const override { return mesh_->pattern; }
   const LowerMatrix& assembled() const override;
+  const LowerMatrix& assembled_where(std::span<const char> wanted) const override;
   void apply_free(std::span<const double> x, std::span<double> y) const override;
   double product_at(Index i, const std::function<double(Index)>& x) const override;
   void residual(const Block& b, const Block& x, Block& r, int threads) const override;
@@ -44,8 +45,8 @@ class FemOperator final : public DomainOperator {
   /// Weights of a face's pairs of corners: M is its row sums plus, for each pair, weight times the
   /// squared difference.
   std::array<double, 3> weights(std::size_t face) const;
-  /// Those of all sides, by Side.
-  RawVector<double> side_weights() const;
+  /// Those of all sides, by Side; where `wanted` is not empty, of faces at a row with a flag.
+  RawVector<double> side_weights(std::span<const char> wanted = {}) const;
   void set_diagonal();
   void assemble_column(Index j, const RawVector<double>& weight) const;
   double of_face(const PerComponent& factor, std::size_t face) const {
@@ -58,6 +59,7 @@ class FemOperator final : public DomainOperator {
   int threads_;
   std::vector<double> diagonal_;
   mutable LowerMatrix assembled_;
+  mutable bool has_all_ = false;  ///< columns of `assembled_`
 };
 
 }  // namespace geotherm

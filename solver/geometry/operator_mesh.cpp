@@ -2,11 +2,14 @@
 #include "solver/geometry/operator_mesh.h"
 
 #include <algorithm>
+#include <span>
+#include <utility>
 #include <vector>
 
 #include "solver/core/memory.h"
 #include "solver/core/parallel.h"
 #include "solver/core/sorting.h"
+#include "solver/geometry/merge_faces.h"
 
 namespace geotherm {
 
@@ -141,10 +144,12 @@ class Builder {
     return pattern;
   }
 
-  void lay_out_faces() {
+  /// Where `changed` (F of the mesh) is not empty, only those faces: others are laid out.
+  void lay_out_faces(std::span<const char> changed = {}) {
     out_.layout.resize(out_.faces.size());
     for_each(out_.faces.size(), [&](std::size_t f) {
-      out_.layout[f] = lay_out(mesh_.lengths[out_.intrinsic_face[f]]);
+      const Index face = out_.intrinsic_face[f];
+      if (changed.empty() || changed[face] != 0) out_.layout[f] = lay_out(mesh_.lengths[face]);
     });
   }
 
@@ -152,20 +157,18 @@ class Builder {
   void add_up_faces() {
     out_.mass.resize(size_);
     out_.stiffness_diagonal.resize(size_);
+    for_each(size_, [this](std::size_t i) { add_up_faces_at(i); });
+  }
+
+  /// The same at rows with a flag, of an earlier mesh elsewhere, with its rows.
+  void add_up_faces(const OperatorMesh& earlier, const OperatorChanges& changes) {
+    out_.mass.resize(size_);
+    out_.stiffness_diagonal.resize(size_);
     for_each(size_, [&](std::size_t i) {
-      double mass = 0, diagonal = 0;
-      for (const Side corner : out_.corners.at(static_cast<Index>(i))) {
-        const Index f = face_of(corner);
-        const int k = corner_of(corner), before = previous_corner(k);
-        const FaceLayout& p = out_.layout[f];
-        const std::array<double, 3> weight = stiffness(p);
-        mass += p.base * p.height / 6;
-        // A side may join a vertex with itself.
-        if (out_.faces[f][next_corner(k)] != out_.faces[f][k]) diagonal -= weight[k];
-        if (out_.faces[f][before] != out_.faces[f][k]) diagonal -= weight[before];
-      }
-      out_.mass[i] = mass;
-      out_.stiffness_diagonal[i] = diagonal;
+      if (changes.rows[i] != 0) return add_up_faces_at(i);
+      const Index before = changes.earlier_row[i];
+      out_.mass[i] = earlier.mass[before];
+      out_.stiffness_diagonal[i] = earlier.stiffness_diagonal[before];
     });
   }
 
@@ -199,6 +202,22 @@ class Builder {
   }
 
  private:
+  void add_up_faces_at(std::size_t i) {
+    double mass = 0, diagonal = 0;
+    for (const Side corner : out_.corners.at(static_cast<Index>(i))) {
+      const Index f = face_of(corner);
+      const int k = corner_of(corner), before = previous_corner(k);
+      const FaceLayout& p = out_.layout[f];
+      const std::array<double, 3> weight = stiffness(p);
+      mass += p.base * p.height / 6;
+      // A side may join a vertex with itself.
+      if (out_.faces[f][next_corner(k)] != out_.faces[f][k]) diagonal -= weight[k];
+      if (out_.faces[f][before] != out_.faces[f][k]) diagonal -= weight[before];
+    }
+    out_.mass[i] = mass;
+    out_.stiffness_diagonal[i] = diagonal;
+  }
+
   template <class Work>
   void for_each(std::size_t count, const Work& work) const {
     parallel_for(threads_, static_cast<std::int64_t>(count), kMinItemsPerThread,
@@ -262,12 +281,41 @@ std::shared_ptr<const OperatorMesh> follow_order(
 }
 
 std::shared_ptr<const OperatorMesh> moved_operator_mesh(const OperatorMesh& earlier,
-                                                        const IntrinsicMesh& mesh, int threads) {
+                                                        const IntrinsicMesh& mesh,
+                                                        const OperatorChanges& changes,
+                                                        int threads) {
   auto out = std::make_shared<OperatorMesh>(earlier);
   Builder builder(mesh, earlier.size(), threads, *out);
-  builder.lay_out_faces();
-  builder.add_up_faces();
+  builder.lay_out_faces(changes.faces);
+  if (changes.empty()) {
+    builder.add_up_faces();
+  } else {
+    builder.add_up_faces(earlier, changes);
+  }
   builder.add_up_areas();
+  return out;
+}
+
+std::shared_ptr<const OperatorMesh> update_operators(
+    const OperatorMesh& earlier, const IntrinsicMesh& mesh, const OperatorChanges& changes,
+    std::span<const Index> vertex_of_row, std::span<const Index> row_of_vertex,
+    const Components& parts, int threads,
+    const std::function<void(const LowerPattern&, int threads)>& analyze) {
+  auto out = std::make_shared<OperatorMesh>();
+  merge_faces(earlier, mesh, changes, row_of_vertex, threads, *out);
+  Builder builder(mesh, earlier.size(), threads, *out);
+  const int half = std::max(1, threads / 2);
+  builder.use_threads(half);
+  run_both(
+      threads,
+      [&] {
+        builder.add_up_faces(earlier, changes);
+        builder.name_components(parts.count,
+                                [&](std::size_t k) { return parts.of[vertex_of_row[k]]; });
+        builder.add_up_areas();
+        out->pattern = pattern_hash(out->lower, half);
+      },
+      [&] { analyze(out->lower, std::max(1, threads - half)); });
   return out;
 }
 

@@ -75,9 +75,31 @@ std::shared_ptr<const OperatorMesh> follow_order(
     std::span<const Index> row_of_vertex, const Components& parts, int threads,
     const std::function<void(const SymmetricPattern&, int threads)>& analyze);
 
+/// How a mesh differs from the one before it moved, where it does in few places. Empty where it
+/// does in many, or where that is not known.
+struct OperatorChanges {
+  std::vector<char> faces;         ///< F of the mesh: other corners or lengths, or one that rose
+  std::vector<char> rows;          ///< n: EarlierFactor::changed; corners of those, now or before
+  std::vector<char> rose;          ///< n: the vertex is in another node of the elimination tree
+  std::vector<Index> earlier_row;  ///< n: EarlierRows::number
+
+  bool empty() const { return rows.empty(); }
+};
+
 /// The operators of a mesh that has the faces and twins of an earlier one, and other lengths.
 std::shared_ptr<const OperatorMesh> moved_operator_mesh(const OperatorMesh& earlier,
-                                                        const IntrinsicMesh& mesh, int threads);
+                                                        const IntrinsicMesh& mesh,
+                                                        const OperatorChanges& changes,
+                                                        int threads);
+
+/// As follow_order(), for a mesh that differs from an earlier one in few places; `changes` is not
+/// empty. `analyze` gets the lower triangle of the pattern. Cost: that of the changes, and of
+/// copying the rest.
+std::shared_ptr<const OperatorMesh> update_operators(
+    const OperatorMesh& earlier, const IntrinsicMesh& mesh, const OperatorChanges& changes,
+    std::span<const Index> vertex_of_row, std::span<const Index> row_of_vertex,
+    const Components& parts, int threads,
+    const std::function<void(const LowerPattern&, int threads)>& analyze);
 
 /// Off-diagonal entries of a face's stiffness matrix for its pairs of corners (0,1), (1,2), (2,0):
 /// minus half the cotangent of the angle opposite (Pinkall, Polthier 1993).

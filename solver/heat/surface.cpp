@@ -10,8 +10,8 @@
 #include "solver/core/text.h"
 #include "solver/geometry/fem_operator.h"
 #include "solver/geometry/operator_mesh.h"
+#include "solver/heat/moved_surface.h"
 #include "solver/heat/unit_field.h"
-#include "solver/linear/elimination_tree.h"
 
 namespace geotherm {
 namespace {
@@ -137,117 +137,7 @@ LaplacianKind kind_of(const IntrinsicSurface& surface) {
   return surface.delaunay ? LaplacianKind::kIntrinsicDelaunay : LaplacianKind::kCotan;
 }
 
-/// A factor that would be larger by more than this, against that of the last fresh order, has a new
-/// order made.
-constexpr double kMaxGrowth = 1.15;
-
-std::shared_ptr<const KeptOrder> order_of(const Surface& fresh) {
-  const EliminationTree* const tree = fresh.analysis->tree();
-  if (tree == nullptr) return nullptr;
-  auto out = std::make_shared<KeptOrder>();
-  out->parent = tree->parent;
-  out->node_of_vertex.assign(static_cast<std::size_t>(fresh.mesh->vertex_count()), kNoIndex);
-  for (Index row = 0; row < fresh.size(); ++row) {
-    if (!fresh.is_of_input(row)) continue;
-    out->vertices.push_back(fresh.vertex_of_row[row]);
-    out->node_of_vertex[out->vertices.back()] = tree->node_of_row[row];
-  }
-  out->factor_bytes = fresh.analysis->factor_bytes(FactorStorage::kFull);
-  return out;
-}
-
-void name_vertices(std::vector<Index> vertex_of_row, Surface& out) {
-  out.vertex_of_row = std::move(vertex_of_row);
-  out.row_of_vertex.assign(static_cast<std::size_t>(out.vertex_count()), kNoIndex);
-  for (std::size_t k = 0; k < out.vertex_of_row.size(); ++k) {
-    out.row_of_vertex[out.vertex_of_row[k]] = static_cast<Index>(k);
-  }
-}
-
-/// Order, analysis and operators from those of an earlier surface. False where they do not serve.
-bool keep_order(const Surface& earlier, int threads, Stopwatch& watch, Surface& out) {
-  if (earlier.backend != out.backend || earlier.asked != out.asked) return false;
-  if (same_triangles(earlier, out, threads)) {
-    out.kept_order = earlier.kept_order;
-    out.vertex_of_row = earlier.vertex_of_row;
-    out.row_of_vertex = earlier.row_of_vertex;
-    out.analysis = earlier.analysis;
-    out.operators = moved_operator_mesh(*earlier.operators, out.intrinsic, threads);
-    out.timing.operators += watch.lap();
-    return true;
-  }
-  const auto kept = earlier.kept_order ? earlier.kept_order : order_of(earlier);
-  if (!kept) return false;
-  std::vector<Index> node = kept->node_of_vertex;
-  node.resize(static_cast<std::size_t>(out.vertex_count()), kNoIndex);
-  const auto nodes = order_along(kept->parent, kept->vertices, node, out.intrinsic.faces);
-  if (!nodes) return false;
-  name_vertices(nodes->order, out);
-  out.timing.operators += watch.lap();
-  std::shared_ptr<const Analysis> analysis;
-  auto operators =
-      follow_order(out.intrinsic, out.vertex_of_row, out.row_of_vertex, out.parts, threads,
-                   [&](const SymmetricPattern& pattern, int half) {
-                     if (auto followed = earlier.analysis->follow(*nodes, pattern, half)) {
-                       analysis = *std::move(followed);
-                     }
-                   });
-  out.timing.analyze += watch.lap();
-  if (!analysis) return false;
-  const auto bytes = static_cast<double>(analysis->factor_bytes(FactorStorage::kFull));
-  if (bytes > kMaxGrowth * static_cast<double>(kept->factor_bytes)) return false;
-  out.kept_order = kept;
-  out.analysis = std::move(analysis);
-  out.operators = std::move(operators);
-  return true;
-}
-
-/// The rows of `now` whose matrix entries or neighbours are not those of an earlier surface in the
-/// same units: corners of faces that are others, and what surrounds vertices that have another
-/// node. Empty where the nodes are others, or a quarter of the rows would be in it. Precondition:
-/// keep_order() kept the order of `earlier`; vertices of one node stand in two fresh orders in any
-/// way.
-std::vector<char> find_changed_rows(const Surface& earlier, const Surface& now) {
-  const EliminationTree *before = earlier.analysis->tree(), *tree = now.analysis->tree();
-  const IntrinsicMesh &old = earlier.intrinsic, &mesh = now.intrinsic;
-  // A fresh order has inserted vertices anywhere within a node, one that is kept has them last.
-  if (earlier.kept_order != now.kept_order && now.refinement.points > 0) return {};
-  if (before == nullptr || tree == nullptr || before->parent != tree->parent ||
-      earlier.refinement.points != now.refinement.points || old.back != mesh.back) {
-    return {};
-  }
-  std::vector<char> rows(static_cast<std::size_t>(now.size()), 0);
-  std::int64_t count = 0;
-  const auto mark = [&](const Face& face) {
-    for (const Index v : face) {
-      char& flag = rows[now.row_of_vertex[v]];
-      count += flag == 0;
-      flag = 1;
-    }
-  };
-  const auto same_node = [&](Index v) {
-    return before->node_of_row[earlier.row_of_vertex[v]] == tree->node_of_row[now.row_of_vertex[v]];
-  };
-  for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
-    const bool same = mesh.faces[f] == old.faces[f] && mesh.lengths[f] == old.lengths[f];
-    if (same && std::ranges::all_of(mesh.faces[f], same_node)) continue;
-    mark(mesh.faces[f]);
-    mark(old.faces[f]);
-  }
-  if (4 * count > now.size()) rows.clear();
-  return rows;
-}
-
-/// Whether most vertices are where they were: then lengths keep their unit, and with it their bits.
-bool moved_little(const IntrinsicSurface& earlier, const TriangleMesh& mesh) {
-  constexpr Index kShare = 8;
-  Index moved = 0;
-  const auto before = earlier.mesh->positions(), now = mesh.positions();
-  for (std::size_t v = 0; v < now.size(); ++v) moved += now[v] != before[v];
-  return kShare * moved <= mesh.vertex_count();
-}
-
-/// The same from the pattern alone.
+/// Order, analysis and operators from the pattern alone.
 Result<void> order_afresh(int threads, const Progress& progress, Stopwatch& watch, Surface& out) {
   const UsedVertices used(out);
   if (out.corners.vertex_count() == 0) {
@@ -309,12 +199,10 @@ Result<std::shared_ptr<const Surface>> build_surface(std::shared_ptr<const Trian
   SetupTiming& timing = out->timing;
   timing.stages = {out->times.clean, out->times.intrinsic, out->times.flips, 0, 0};
   timing.operators = watch.lap();
-  if (earlier != nullptr && keep_order(*earlier, threads, watch, *out)) {
-    if (little && out->unit == earlier->unit) {
-      out->changed_rows = find_changed_rows(*earlier, *out);
-    }
-  } else if (auto made = order_afresh(threads, progress, watch, *out); !made) {
-    return made.error();
+  const bool kept = earlier != nullptr && keep_order(*earlier, little && out->unit == earlier->unit,
+                                                     threads, watch, *out);
+  if (!kept) {
+    if (auto made = order_afresh(threads, progress, watch, *out); !made) return made.error();
   }
   out->corners = {};
   out->on_boundary = find_boundary(*out);

@@ -115,6 +115,13 @@ Result<std::shared_ptr<const Analysis>> Analysis::follow(const NodeOrder& /*orde
   return Error{ErrorCode::kNotAvailable, "the backend keeps no order for another pattern"};
 }
 
+Result<std::shared_ptr<const Analysis>> Analysis::update(const NodeOrder& /*order*/,
+                                                         const LowerPattern& /*lower*/,
+                                                         const EarlierRows& /*rows*/,
+                                                         int /*threads*/) const {
+  return Error{ErrorCode::kNotAvailable, "the backend keeps no order for another pattern"};
+}
+
 Result<void> check_pattern(const SymmetricOperator& matrix, std::uint64_t analysed, Index size) {
   if (matrix.pattern() == analysed) return {};
   return Error{ErrorCode::kBadInput,

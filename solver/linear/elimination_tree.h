@@ -41,6 +41,13 @@ struct NodeOrder {
   std::vector<Index> parent;  ///< nodes: kNoIndex at roots
 };
 
+/// How the rows of a pattern in a NodeOrder stand in an earlier one with as many rows and the same
+/// nodes. Rows that have not changed keep their order among them.
+struct EarlierRows {
+  std::span<const Index> number;  ///< n: of each row in the earlier order
+  std::span<const char> changed;  ///< n: EarlierFactor::changed
+};
+
 /// Keeps an elimination order where a graph has got other edges, or vertices: each vertex stays in
 /// its node of the earlier tree, unless an edge joins two branches; then the end in the higher
 /// numbered one rises to the node where the branches meet. A factor of the graph in this order has

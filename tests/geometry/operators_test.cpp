@@ -132,6 +132,25 @@ TEST_P(OperatorForms, AgreeWithHeldRows) {
   }
 }
 
+// Some columns first, then others, then all.
+TEST_P(OperatorForms, AssembleTheColumnsThatAreWanted) {
+  const FemOperator M(operators(true), 1, kHeatTime, {}, kConsistentShare);
+  const FemOperator N(operators(true), 1, kHeatTime, {}, kConsistentShare);
+  const LowerMatrix& all = N.assembled();
+  for (const int part : {0, 1}) {
+    std::vector<char> wanted(static_cast<std::size_t>(M.size()));
+    for (Index j = part; j < M.size(); j += 2) wanted[j] = 1;
+    const LowerMatrix& some = M.assembled_where(wanted);
+    ASSERT_EQ(some.row, all.row);
+    for (Index j = part; j < M.size(); j += 2) {
+      for (std::int64_t e = all.start[j]; e < all.start[j + 1]; ++e) {
+        EXPECT_EQ(some.value[e], all.value[e]);
+      }
+    }
+  }
+  EXPECT_EQ(M.assembled().value, all.value);
+}
+
 TEST_P(OperatorForms, ConsistentMassKeepsRowSums) {
   const auto surface = operators(true);
   const FemOperator M(surface, 1, 0, {}, kConsistentShare);

@@ -168,6 +168,81 @@ TEST(OrderAlong, LeavesAPlaceForEveryEntryOfTheFactor) {
   }
 }
 
+void expect_same_tree(const FrontTree& tree, const FrontTree& expected) {
+  EXPECT_EQ(tree.nodes.first, expected.nodes.first);
+  EXPECT_EQ(tree.nodes.below, expected.nodes.below);
+  EXPECT_EQ(tree.tree.parent, expected.tree.parent);
+  EXPECT_EQ(tree.tree.node_of_row, expected.tree.node_of_row);
+  EXPECT_EQ(tree.is_leaf, expected.is_leaf);
+  EXPECT_EQ(tree.place_in_parent, expected.place_in_parent);
+  EXPECT_EQ(tree.value_start, expected.value_start);
+  EXPECT_EQ(tree.entry_start, expected.entry_start);
+  EXPECT_EQ(tree.entry_offset, expected.entry_offset);
+  EXPECT_EQ(tree.largest_panel, expected.largest_panel);
+  EXPECT_EQ(tree.update_stack, expected.update_stack);
+  EXPECT_EQ(tree.operations, expected.operations);
+}
+
+/// A graph in an order along the nodes of a tree.
+struct Followed {
+  NodeOrder order;
+  std::vector<Index> place, node;  ///< of each vertex
+  SymmetricPattern pattern;
+};
+
+Followed follow_faces(const Fronts& fronts, std::vector<Face> faces) {
+  Followed out{{}, {}, fronts.tree.tree.node_of_row, {}};
+  out.order =
+      *order_along(fronts.tree.tree.parent, in_order(fronts.pattern.size()), out.node, faces);
+  out.place = inverse_permutation(out.order.order);
+  for (Face& face : faces) {
+    for (Index& corner : face) corner = out.place[corner];
+  }
+  out.pattern = pattern_of_faces(fronts.pattern.size(), faces);
+  return out;
+}
+
+/// Whether a vertex has other neighbours, or one of them or itself is in another node.
+bool has_changed(const Followed& before, const Followed& now, Index vertex) {
+  const auto around = [vertex](const Followed& graph) {
+    std::set<std::pair<Index, Index>> found = {{vertex, graph.node[vertex]}};
+    for (const Index row : graph.pattern.neighbors(graph.place[vertex])) {
+      const Index neighbor = graph.order.order[row];
+      found.insert({neighbor, graph.node[neighbor]});
+    }
+    return found;
+  };
+  return around(before) != around(now);
+}
+
+// Edges come and go, and vertices rise and return.
+TEST(FrontTree, IsUpdatedToWhatItWouldBe) {
+  const Fronts fronts(torus(40, 30, 0.4));
+  Followed before = follow_faces(fronts, with_other_faces(fronts.pattern, 0, 0));
+  FrontTree tree = build_front_tree(before.pattern, before.order, 1);
+  int compared = 0;
+  for (unsigned seed = 1; seed < 30; ++seed) {
+    Followed now = follow_faces(fronts, with_other_faces(fronts.pattern, 0, seed));
+    const FrontTree expected = build_front_tree(now.pattern, now.order, 1, &tree);
+    if (expected.tree.parent == tree.tree.parent) {
+      std::vector<Index> number;
+      std::vector<char> changed;
+      for (const Index vertex : now.order.order) {
+        number.push_back(before.place[vertex]);
+        changed.push_back(has_changed(before, now, vertex) ? 1 : 0);
+      }
+      ASSERT_LT(std::ranges::count(changed, 1), now.pattern.size() / 2);
+      expect_same_tree(
+          update_front_tree(lower_of(now.pattern, 1), now.order, tree, {number, changed}, 2),
+          expected);
+      ++compared;
+    }
+    before = std::move(now);
+    tree = expected;
+  }
+  EXPECT_GT(compared, 20);
+}
+
 TEST(OrderAlong, LeavesVerticesWhereTheyAreWhereNothingChanges) {
   const Fronts fronts(torus(24, 16, 0.4));
   const EliminationTree& tree = fronts.tree.tree;

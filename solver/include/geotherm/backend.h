@@ -20,6 +20,7 @@ namespace geotherm {
 
 class BufferPool;        // solver/core/memory.h
 struct EliminationTree;  // solver/linear/elimination_tree.h
+struct EarlierRows;      // there, too
 struct NodeOrder;
 
 /// The nonzero pattern of a symmetric matrix as a graph: row i has a diagonal entry and one at
@@ -102,6 +103,12 @@ class SymmetricOperator {
   /// M as a matrix, built on the first call. Matrix-free backends never call it. Not to be called
   /// from several threads at once.
   virtual const LowerMatrix& assembled() const = 0;
+
+  /// The same where only some columns are of use: those with a flag in `wanted` (n, or empty: all).
+  /// The others may hold any numbers.
+  virtual const LowerMatrix& assembled_where(std::span<const char> /*wanted*/) const {
+    return assembled();
+  }
 };
 
 /// A block of K vectors of length n; the K values of a row are contiguous.
@@ -217,6 +224,13 @@ class Analysis {
   /// in that order. Errors: kNotAvailable (no tree), kOutOfMemory. Cost: far less than analyze().
   virtual Result<std::shared_ptr<const Analysis>> follow(const NodeOrder& order,
                                                          const SymmetricPattern& eliminated,
+                                                         int threads) const;
+
+  /// The same where few rows have changed and the tree's nodes are the same. `lower`: the lower
+  /// triangle of the pattern. Cost: that of the changed rows, and of copying the rest.
+  virtual Result<std::shared_ptr<const Analysis>> update(const NodeOrder& order,
+                                                         const LowerPattern& lower,
+                                                         const EarlierRows& rows,
                                                          int threads) const;
 };
 

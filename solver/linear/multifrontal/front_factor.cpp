@@ -19,31 +19,29 @@ constexpr std::int64_t kSlabsAPiece = 6;
 class Factorizer {
  public:
   Factorizer(const FrontTree& tree, const LowerMatrix& matrix, int threads, FrontFactor& out,
-             const EarlierFronts* earlier, InstructionSet set)
+             const KeptTasks* kept, InstructionSet set)
       : tree_(tree),
         matrix_(matrix),
         kernels_(front_kernels(set)),
         threads_(threads),
         out_(out),
         waiting_(tree.tasks.size()),
-        keeps_(earlier != nullptr),
-        earlier_(earlier) {
-    find_unchanged();
-  }
+        kept_(kept) {}
 
   FactorFailure run() {
     std::mutex mutex;
     FactorFailure failure;
-    out_.cancellation = earlier_ != nullptr ? earlier_->factor->cancellation : 0;
+    const bool takes = kept_ != nullptr && !kept_->unchanged.empty();
+    out_.cancellation = takes ? kept_->earlier.factor->cancellation : 0;
     out_.factored = 0;
     for (std::size_t t = 0; t < waiting_.size(); ++t) {
       const FrontTask& task = tree_.tasks[t];
-      if (unchanged_.empty() || unchanged_[t] == 0) out_.factored += task.end - task.begin;
+      if (!takes || kept_->unchanged[t] == 0) out_.factored += task.end - task.begin;
     }
     run_tasks(
         tree_, TaskQueue::Direction::kUp, threads_, [this] { return Worker(tree_); },
         [&](const FrontTask& task, Index number, Worker& worker) {
-          if (!unchanged_.empty() && unchanged_[number] != 0) {
+          if (takes && kept_->unchanged[number] != 0) {
             take_over(task, number);
             return true;
           }
@@ -56,7 +54,7 @@ class Factorizer {
           if (failure.column == kNoIndex) failure = ended;
           return false;
         });
-    if (keeps_) out_.updates.assign(waiting_.begin(), waiting_.end());
+    if (kept_ != nullptr) out_.updates.assign(waiting_.begin(), waiting_.end());
     return failure;
   }
 
@@ -74,48 +72,16 @@ class Factorizer {
     std::vector<std::int64_t> panel_row, triangle_row;
   };
 
-  /// Whether a task has the fronts of the earlier tree, so that places and sizes are the same.
-  bool same_fronts(const FrontTask& task, const FrontTask& old) const {
-    const FrontTree& before = *earlier_->tree;
-    if (task.begin != old.begin || task.end != old.end) return false;
-    for (Index s = task.begin; s < task.end; ++s) {
-      if (tree_.width(s) != before.width(s) || tree_.below(s) != before.below(s)) return false;
-    }
-    // The parent of the last front may have got other rows.
-    return std::equal(tree_.place_in_parent.begin() + tree_.below_start[task.begin],
-                      tree_.place_in_parent.begin() + tree_.below_start[task.end - 1],
-                      before.place_in_parent.begin() + before.below_start[task.begin]);
-  }
-
-  /// Flags the tasks in which nothing has changed, nor below them.
-  void find_unchanged() {
-    if (earlier_ == nullptr || earlier_->factor == nullptr ||
-        earlier_->factor->updates.size() != tree_.tasks.size() ||
-        earlier_->factor->storage != out_.storage) {
-      earlier_ = nullptr;
-      return;
-    }
-    for (std::size_t t = 0; t < tree_.tasks.size(); ++t) {
-      const FrontTask& task = tree_.tasks[t];
-      const auto begin = earlier_->changed.begin();
-      const bool changed =
-          std::ranges::any_of(task.children, [this](Index c) { return unchanged_[c] == 0; }) ||
-          std::any_of(begin + tree_.nodes.first[task.begin], begin + tree_.nodes.first[task.end],
-                      [](char flag) { return flag != 0; }) ||
-          !same_fronts(task, earlier_->tree->tasks[t]);
-      unchanged_.push_back(changed ? 0 : 1);
-    }
-  }
-
   /// The numbers of the earlier factor.
   void take_over(const FrontTask& task, Index number) {
-    const FrontTree& before = *earlier_->tree;
+    const FrontTree& before = *kept_->earlier.tree;
+    const FrontFactor& factor = *kept_->earlier.factor;
     const std::int64_t bytes = bytes_of(out_.storage);
     std::memcpy(out_.values.data() + tree_.value_start[task.begin] * bytes,
-                earlier_->factor->values.data() + before.value_start[task.begin] * bytes,
+                factor.values.data() + before.value_start[task.begin] * bytes,
                 static_cast<std::size_t>(
                     (tree_.value_start[task.end] - tree_.value_start[task.begin]) * bytes));
-    waiting_[number] = earlier_->factor->updates[number];
+    waiting_[number] = factor.updates[number];
   }
 
   FactorFailure run_task(const FrontTask& task, Index number, Worker& worker) {
@@ -142,7 +108,7 @@ class Factorizer {
       if (s == task.begin) {  // its children, where it has any, are tasks of their own
         for (auto child = task.children.rbegin(); child != task.children.rend(); ++child) {
           extend(front, tree_.tasks[*child].end - 1, waiting_[*child].get(), update, worker);
-          if (!keeps_) waiting_[*child].reset();
+          if (kept_ == nullptr) waiting_[*child].reset();
         }
       }
       const FactorFailure failure = eliminate(front, s, update, worker);
@@ -255,22 +221,53 @@ class Factorizer {
   std::atomic<int> active_{0};  ///< tasks in hand
   FrontFactor& out_;
   std::vector<std::shared_ptr<const double[]>> waiting_;  ///< per task: update of its last front
-  const bool keeps_;                                      ///< all of `waiting_`
-  const EarlierFronts* earlier_;                          ///< null where it does not serve
-  std::vector<char> unchanged_;                           ///< per task; empty: none is
+  const KeptTasks* kept_;                                 ///< null: `waiting_` is not kept
 };
+
+/// Whether a task has the fronts of an earlier tree, so that places and sizes are the same.
+bool same_fronts(const FrontTree& tree, const FrontTask& task, const FrontTree& before,
+                 const FrontTask& old) {
+  if (task.begin != old.begin || task.end != old.end) return false;
+  for (Index s = task.begin; s < task.end; ++s) {
+    if (tree.width(s) != before.width(s) || tree.below(s) != before.below(s)) return false;
+  }
+  // The parent of the last front may have got other rows.
+  return std::equal(tree.place_in_parent.begin() + tree.below_start[task.begin],
+                    tree.place_in_parent.begin() + tree.below_start[task.end - 1],
+                    before.place_in_parent.begin() + before.below_start[task.begin]);
+}
 
 }  // namespace
 
+std::vector<char> find_unchanged(const FrontTree& tree, FactorStorage storage,
+                                 const EarlierFronts& earlier) {
+  std::vector<char> unchanged;
+  if (earlier.factor == nullptr || earlier.factor->updates.size() != tree.tasks.size() ||
+      earlier.factor->storage != storage) {
+    return unchanged;
+  }
+  for (std::size_t t = 0; t < tree.tasks.size(); ++t) {
+    const FrontTask& task = tree.tasks[t];
+    const auto begin = earlier.changed.begin();
+    const bool changed =
+        std::ranges::any_of(task.children, [&](Index c) { return unchanged[c] == 0; }) ||
+        std::any_of(begin + tree.nodes.first[task.begin], begin + tree.nodes.first[task.end],
+                    [](char flag) { return flag != 0; }) ||
+        !same_fronts(tree, task, *earlier.tree, earlier.tree->tasks[t]);
+    unchanged.push_back(changed ? 0 : 1);
+  }
+  return unchanged;
+}
+
 FactorFailure factorize_fronts(const FrontTree& tree, const LowerMatrix& matrix,
                                const FactorOptions& options, FrontFactor& out,
-                               const EarlierFronts* earlier, InstructionSet set) {
+                               const KeptTasks* kept, InstructionSet set) {
   out.storage = options.storage;
   const std::int64_t bytes = tree.value_start.back() * bytes_of(options.storage);
   const auto padding = static_cast<std::size_t>(kStoredPadding * bytes_of(options.storage));
   out.values = LargeBuffer(static_cast<std::size_t>(bytes) + padding, options.memory);
   std::memset(out.values.data() + bytes, 0, padding);
-  return Factorizer(tree, matrix, options.threads, out, earlier, set).run();
+  return Factorizer(tree, matrix, options.threads, out, kept, set).run();
 }
 
 std::int64_t front_work_bytes(const FrontTree& tree, int threads) {

@@ -3,6 +3,7 @@
 
 #include <memory>
 #include <span>
+#include <vector>
 
 #include "geotherm/backend.h"
 #include "geotherm/error.h"
@@ -41,15 +42,27 @@ struct EarlierFronts {
   std::span<const char> changed;        ///< n: EarlierFactor::changed
 };
 
+/// Flags the tasks whose numbers can be taken over from an earlier factor: no row has changed in
+/// them or below them, and their fronts are the same. Empty where none can.
+std::vector<char> find_unchanged(const FrontTree& tree, FactorStorage storage,
+                                 const EarlierFronts& earlier);
+
+/// What is taken over from an earlier factor.
+struct KeptTasks {
+  EarlierFronts earlier;
+  std::vector<char> unchanged;  ///< find_unchanged()
+};
+
 /// Multifrontal Cholesky (Duff, Reid 1983; Liu 1992): each front gathers the entries of its columns
 /// and the updates of its children, eliminates its columns with dense kernels and passes the update
 /// of what is left on. Subtrees are factorised side by side. The result has the same bits for any
-/// number of threads. With `earlier` the updates between tasks are kept, and a task is factorised
-/// only where a row changed in it or below it, or where its fronts are others; the rest is copied.
-/// Precondition: `matrix` has the tree's pattern. Throws std::bad_alloc. Cost: tree.operations.
+/// number of threads. With `kept` the updates between tasks are kept, and only the tasks that are
+/// not unchanged are factorised, of which alone the columns of `matrix` are read; the rest is
+/// copied. Precondition: `matrix` has the tree's pattern. Throws std::bad_alloc. Cost:
+/// tree.operations.
 FactorFailure factorize_fronts(const FrontTree& tree, const LowerMatrix& matrix,
                                const FactorOptions& options, FrontFactor& out,
-                               const EarlierFronts* earlier = nullptr,
+                               const KeptTasks* kept = nullptr,
                                InstructionSet set = best_instruction_set());
 
 /// Bytes that factorize_fronts() holds at most beside the matrix and its result.

@@ -4,138 +4,29 @@
 #include <algorithm>
 #include <cstdint>
 #include <limits>
+#include <span>
+#include <utility>
+#include <vector>
 
+#include "solver/core/memory.h"
 #include "solver/core/parallel.h"
 #include "solver/linear/multifrontal/front_tasks.h"
 
 namespace geotherm {
 namespace {
 
-/// What a front costs in every solve beside its entries, in entries: so many zeros may be stored to
-/// have one front less. Measured at 30k to 4M faces.
-constexpr double kFrontCost = 128;
-
-/// Entries of a trapezoid of this height.
-double entries(std::int64_t width, std::int64_t height) {
-  return static_cast<double>(width * height - width * (width - 1) / 2);
-}
-
-/// Runs of columns with their parents, children before parents.
-struct Draft {
-  std::vector<Index> width, below, parent;
-
-  Index count() const { return static_cast<Index>(width.size()); }
-  void add(Index columns, Index rows_below, Index above) {
-    width.push_back(columns);
-    below.push_back(rows_below);
-    parent.push_back(above);
-  }
-};
-
-/// Columns whose patterns are the same but for their own rows.
-Draft strict_supernodes(const ColumnCounts& counts) {
-  const auto size = static_cast<Index>(counts.parent.size());
-  std::vector<Index> last, of(counts.parent.size());
-  for (Index j = 0; j < size; ++j) {
-    const bool joins =
-        j > 0 && counts.parent[j - 1] == j && counts.below[j - 1] == counts.below[j] + 1;
-    if (!joins) last.push_back(j);
-    last.back() = j;
-    of[j] = static_cast<Index>(last.size()) - 1;
-  }
-  Draft out;
-  Index begin = 0;
-  for (const Index j : last) {
-    const Index above = counts.parent[j];
-    out.add(j + 1 - begin, counts.below[j], above == kNoIndex ? kNoIndex : of[above]);
-    begin = j + 1;
-  }
-  return out;
-}
-
-/// Merges a whole subtree into one supernode where that costs less. Its columns are contiguous, and
-/// all its rows below are among those of its root.
-Draft merge_subtrees(const Draft& strict) {
-  const auto count = static_cast<std::size_t>(strict.count());
-  std::vector<Index> columns(strict.width);
-  std::vector<double> cost(count, 0.0);  // of the subtree, as cheap as can be
-  std::vector<char> merges(count, 0);
-  for (Index s = 0; s < strict.count(); ++s) {
-    const Index p = strict.parent[s];
-    const double separate =
-        cost[s] + kFrontCost + entries(strict.width[s], strict.width[s] + strict.below[s]);
-    const double merged = kFrontCost + entries(columns[s], columns[s] + strict.below[s]);
-    merges[s] = merged <= separate;
-    cost[s] = merges[s] != 0 ? merged : separate;
-    if (p == kNoIndex) continue;
-    columns[p] += columns[s];
-    cost[p] += cost[s];
-  }
-  // From the roots down: who is within a merged subtree.
-  std::vector<char> within(count, 0);
-  for (Index s = strict.count(); s-- > 0;) {
-    const Index p = strict.parent[s];
-    within[s] = p != kNoIndex && (merges[p] != 0 || within[p] != 0);
-  }
-  std::vector<Index> number(count, kNoIndex);
-  Index kept = 0;
-  for (Index s = 0; s < strict.count(); ++s) {
-    if (within[s] == 0) number[s] = kept++;
-  }
-  Draft out;
-  for (Index s = 0; s < strict.count(); ++s) {
-    if (within[s] != 0) continue;
-    const Index p = strict.parent[s];
-    out.add(merges[s] != 0 ? columns[s] : strict.width[s], strict.below[s],
-            p == kNoIndex ? kNoIndex : number[p]);
-  }
-  return out;
-}
-
-/// From the roots down, merges each supernode with the one before it, where that is its child and
-/// the merger stores few zeros.
-Supernodes merge_last_children(Draft draft) {
-  std::vector<Index> taken_by(static_cast<std::size_t>(draft.count()), kNoIndex);
-  const auto living = [&](Index s) {
-    while (s != kNoIndex && taken_by[s] != kNoIndex) s = taken_by[s];
-    return s;
-  };
-  std::vector<Index> parent = draft.parent;
-  for (Index s = draft.count() - 1; s-- > 0;) {
-    if (draft.parent[s] != s + 1) continue;
-    const std::int64_t height = std::int64_t{draft.width[s + 1]} + draft.below[s + 1];
-    const std::int64_t zeros = draft.width[s] * (height - draft.below[s]);
-    if (static_cast<double>(zeros) > kFrontCost) continue;
-    taken_by[s + 1] = s;
-    draft.width[s] += draft.width[s + 1];
-    draft.below[s] = draft.below[s + 1];
-    parent[s] = parent[s + 1];
-  }
-  Supernodes out;
-  std::vector<Index> number(taken_by.size(), kNoIndex);
-  for (Index s = 0; s < draft.count(); ++s) {
-    if (taken_by[s] != kNoIndex) continue;
-    number[s] = out.count();
-    out.first.push_back(out.first.back() + draft.width[s]);
-    out.below.push_back(draft.below[s]);
-  }
-  for (Index s = 0; s < draft.count(); ++s) {
-    if (taken_by[s] != kNoIndex) continue;
-    const Index above = living(parent[s]);
-    out.parent.push_back(above == kNoIndex ? kNoIndex : number[above]);
-  }
-  return out;
-}
-
-/// Columns whose patterns are the same but for their own rows, and beyond that narrow children
-/// with their parents where that stores few zeros (Ashcraft, Grimes 1989): dense kernels want some
-/// columns at a time. Precondition: columns in postorder. Cost: O(n).
-Supernodes find_supernodes(const ColumnCounts& counts) {
-  return merge_last_children(merge_subtrees(strict_supernodes(counts)));
-}
-
 /// Fronts that a thread takes at a time.
 constexpr std::int64_t kFrontsAPiece = 2000;
+
+/// The neighbours of a column that come after it, ascending.
+std::span<const Index> later(const SymmetricPattern& pattern, Index column) {
+  const auto all = pattern.neighbors(column);
+  return {std::upper_bound(all.begin(), all.end(), column), all.end()};
+}
+std::span<const Index> later(const LowerPattern& pattern, Index column) {
+  return {pattern.row.data() + pattern.start[column] + 1,
+          pattern.row.data() + pattern.start[column + 1]};
+}
 
 /// Each row of the matrix is walked up the tree from its entries, and reaches the fronts in which
 /// it has a place below their own rows: visit(front, row), rows ascending.
@@ -174,7 +65,7 @@ EliminationTree tree_of(const Supernodes& nodes) {
 }
 
 /// Places of the rows below front s among those of its parent: both lists ascend.
-void find_places(const std::vector<Index>& rows, FrontTree& fronts, Index s) {
+void find_places(std::span<const Index> rows, FrontTree& fronts, Index s) {
   const Index p = fronts.tree.parent[s];
   if (p == kNoIndex) return;
   const Index own_end = fronts.nodes.first[p + 1];
@@ -192,8 +83,9 @@ void find_places(const std::vector<Index>& rows, FrontTree& fronts, Index s) {
 }
 
 /// Where the entries of front s go in its panel: slabs of rows, columns within.
-void find_entries(const SymmetricPattern& pattern, const std::vector<Index>& rows,
-                  FrontTree& fronts, Index s, std::vector<Index>& place_of_row) {
+template <class Pattern>
+void find_entries(const Pattern& pattern, std::span<const Index> rows, FrontTree& fronts, Index s,
+                  std::vector<Index>& place_of_row) {
   const Index first = fronts.nodes.first[s], end = fronts.nodes.first[s + 1];
   const Index width = padded(end - first);
   for (std::int64_t i = fronts.below_start[s]; i < fronts.below_start[s + 1]; ++i) {
@@ -205,20 +97,30 @@ void find_entries(const SymmetricPattern& pattern, const std::vector<Index>& row
   for (Index column = first; column < end; ++column) {
     std::int64_t entry = fronts.entry_start[column];
     fronts.entry_offset[entry++] = offset(column - first, column);
-    for (const Index row : pattern.neighbors(column)) {
-      if (row < column) continue;
+    for (const Index row : later(pattern, column)) {
       fronts.entry_offset[entry++] = offset(row < end ? row - first : place_of_row[row], column);
     }
   }
 }
 
-/// Everything that follows from the supernodes. `operations`: of one factorisation.
-FrontTree lay_out_fronts(const SymmetricPattern& pattern, Supernodes nodes, EliminationTree tree,
-                         double operations, int threads, const FrontTree* earlier = nullptr) {
+/// Operations of one factorisation.
+double operations_of(const Supernodes& nodes) {
+  double operations = 0;
+  for (Index s = 0; s < nodes.count(); ++s) {
+    for (Index height = nodes.below[s] + 1; height <= nodes.below[s] + nodes.width(s); ++height) {
+      operations += static_cast<double>(height) * height;
+    }
+  }
+  return operations;
+}
+
+/// The sizes that follow from the supernodes, and room for places and entries; none where
+/// largest_panel is beyond what an Index counts.
+template <class Pattern>
+FrontTree measure_fronts(const Pattern& pattern, Supernodes nodes, EliminationTree tree) {
   FrontTree out;
   out.nodes = std::move(nodes);
   out.tree = std::move(tree);
-  out.operations = operations;
   out.is_leaf.assign(static_cast<std::size_t>(out.count()), 1);
   out.below_start.assign(1, 0);
   out.value_start.assign(1, 0);
@@ -237,15 +139,22 @@ FrontTree lay_out_fronts(const SymmetricPattern& pattern, Supernodes nodes, Elim
   }
   if (out.largest_panel > std::numeric_limits<Index>::max()) return out;
   out.entry_start.assign(1, 0);
-  out.entry_start.reserve(pattern.start.size());
-  for (Index column = 0; column < pattern.size(); ++column) {
-    const auto neighbors = pattern.neighbors(column);
-    const auto above = std::upper_bound(neighbors.begin(), neighbors.end(), column);
-    out.entry_start.push_back(out.entry_start.back() + 1 + (neighbors.end() - above));
+  out.entry_start.reserve(static_cast<std::size_t>(out.size()) + 1);
+  for (Index column = 0; column < out.size(); ++column) {
+    out.entry_start.push_back(out.entry_start.back() + 1 + std::ssize(later(pattern, column)));
   }
-  const std::vector<Index> rows = rows_below(pattern, out);
-  out.place_in_parent.resize(rows.size());
+  out.place_in_parent.resize(static_cast<std::size_t>(out.below_start.back()));
   out.entry_offset.resize(static_cast<std::size_t>(out.entry_start.back()));
+  return out;
+}
+
+/// Everything that follows from the supernodes. `operations`: of one factorisation.
+FrontTree lay_out_fronts(const SymmetricPattern& pattern, Supernodes nodes, EliminationTree tree,
+                         double operations, int threads, const FrontTree* earlier = nullptr) {
+  FrontTree out = measure_fronts(pattern, std::move(nodes), std::move(tree));
+  out.operations = operations;
+  if (out.largest_panel > std::numeric_limits<Index>::max()) return out;
+  const std::vector<Index> rows = rows_below(pattern, out);
   parallel_for(threads, out.count(), kFrontsAPiece, [&](std::int64_t begin, std::int64_t end) {
     std::vector<Index> place_of_row(static_cast<std::size_t>(pattern.size()));
     for (auto s = static_cast<Index>(begin); s < static_cast<Index>(end); ++s) {
@@ -256,6 +165,117 @@ FrontTree lay_out_fronts(const SymmetricPattern& pattern, Supernodes nodes, Elim
   divide_into_tasks(out, earlier);
   return out;
 }
+
+/// What stays of an earlier tree whose nodes are the same.
+class FrontUpdate {
+ public:
+  FrontUpdate(const LowerPattern& lower, const NodeOrder& order, const FrontTree& earlier,
+              const EarlierRows& rows)
+      : lower_(lower),
+        earlier_(earlier),
+        number_now_(inverse_permutation(rows.number)),
+        changed_(order.parent.size(), 0),
+        listed_(order.parent.size()) {
+    Supernodes nodes{order.first, earlier.nodes.below, order.parent};
+    EliminationTree tree = tree_of(nodes);
+    for (std::size_t k = 0; k < rows.changed.size(); ++k) {
+      if (rows.changed[k] == 0) continue;
+      changed_[tree.node_of_row[k]] = 1;
+      changed_[earlier.tree.node_of_row[rows.number[k]]] = 1;
+    }
+    for (Index s = 0; s < nodes.count(); ++s) {
+      if (changed_[s] != 0 && nodes.parent[s] != kNoIndex) changed_[nodes.parent[s]] = 1;
+    }
+    list_rows(nodes);
+    out_ = measure_fronts(lower, std::move(nodes), std::move(tree));
+  }
+
+  FrontTree finish(int threads) && {
+    out_.operations = operations_of(out_.nodes);
+    if (out_.largest_panel > std::numeric_limits<Index>::max()) return std::move(out_);
+    RawVector<Index> rows(static_cast<std::size_t>(out_.below_start.back()));
+    for (Index s = 0; s < out_.count(); ++s) {
+      std::ranges::copy(listed_[s], rows.begin() + out_.below_start[s]);
+    }
+    parallel_for(threads, out_.count(), kFrontsAPiece, [&](std::int64_t begin, std::int64_t end) {
+      std::vector<Index> place_of_row(static_cast<std::size_t>(out_.size()));
+      for (auto s = static_cast<Index>(begin); s < static_cast<Index>(end); ++s) {
+        if (is_listed(s)) {
+          find_places(rows, out_, s);
+        } else {
+          copy_part(earlier_.place_in_parent, earlier_.below_start, s, s + 1, out_.place_in_parent,
+                    out_.below_start[s]);
+        }
+        if (changed_[s] != 0) {
+          find_entries(lower_, rows, out_, s, place_of_row);
+        } else {
+          copy_part(earlier_.entry_offset, earlier_.entry_start, earlier_.nodes.first[s],
+                    earlier_.nodes.first[s + 1], out_.entry_offset,
+                    out_.entry_start[out_.nodes.first[s]]);
+        }
+      }
+    });
+    divide_into_tasks(out_, &earlier_);
+    return std::move(out_);
+  }
+
+ private:
+  /// Whether the rows below a front are needed: it or its parent has changed.
+  bool is_listed(Index s) const {
+    const Index p = earlier_.nodes.parent[s];
+    return changed_[s] != 0 || (p != kNoIndex && changed_[p] != 0);
+  }
+
+  static void copy_part(const std::vector<Index>& from, const std::vector<std::int64_t>& start,
+                        Index first, Index end, std::vector<Index>& to, std::int64_t at) {
+    std::copy(from.begin() + start[first], from.begin() + start[end], to.begin() + at);
+  }
+
+  /// The rows below each listed front, as they were numbered: those that places in parents say.
+  std::vector<std::vector<Index>> rows_before() const {
+    std::vector<std::vector<Index>> rows(listed_.size());
+    for (Index s = earlier_.count(); s-- > 0;) {
+      const Index p = earlier_.nodes.parent[s];
+      if (p == kNoIndex || !is_listed(s)) continue;
+      const Index under = padded(earlier_.width(p));
+      for (Index i = 0; i < earlier_.below(s); ++i) {
+        const Index place = earlier_.places_in_parent(s)[i];
+        rows[s].push_back(place < under ? earlier_.nodes.first[p] + place : rows[p][place - under]);
+      }
+    }
+    return rows;
+  }
+
+  /// Below a front that has changed are those of its children and of its own entries.
+  void list_rows(Supernodes& nodes) {
+    std::vector<std::vector<Index>> before = rows_before();
+    for (Index s = 0; s < nodes.count(); ++s) {
+      std::vector<Index>& rows = listed_[s];
+      if (changed_[s] == 0) {
+        for (const Index row : before[s]) rows.push_back(number_now_[row]);
+      } else {
+        for (Index column = nodes.first[s]; column < nodes.first[s + 1]; ++column) {
+          const auto entries = later(lower_, column);
+          rows.insert(rows.end(), entries.begin(), entries.end());
+        }
+        std::ranges::sort(rows);
+        rows.erase(std::unique(rows.begin(), rows.end()), rows.end());
+        rows.erase(rows.begin(), std::ranges::lower_bound(rows, nodes.first[s + 1]));
+        nodes.below[s] = static_cast<Index>(rows.size());
+      }
+      const Index p = nodes.parent[s];
+      if (p == kNoIndex || changed_[p] == 0) continue;
+      listed_[p].insert(listed_[p].end(), rows.begin(), rows.end());
+    }
+  }
+
+  const LowerPattern& lower_;
+  const FrontTree& earlier_;
+  const std::vector<Index> number_now_;     ///< of each earlier row
+  std::vector<char> changed_;               ///< S: a row in it or below it has
+  std::vector<std::vector<Index>> listed_;  ///< S: rows below, where they are needed
+  FrontTree out_;
+};
 
 }  // namespace
 
@@ -273,13 +293,13 @@ FrontTree build_front_tree(const SymmetricPattern& pattern, const NodeOrder& ord
   Supernodes nodes{order.first, std::vector<Index>(order.parent.size(), 0), order.parent};
   EliminationTree tree = tree_of(nodes);
   walk_rows(pattern, tree, [&](Index s, Index) { ++nodes.below[s]; });
-  double operations = 0;
-  for (Index s = 0; s < nodes.count(); ++s) {
-    for (Index height = nodes.below[s] + 1; height <= nodes.below[s] + nodes.width(s); ++height) {
-      operations += static_cast<double>(height) * height;
-    }
-  }
+  const double operations = operations_of(nodes);
   return lay_out_fronts(pattern, std::move(nodes), std::move(tree), operations, threads, earlier);
+}
+
+FrontTree update_front_tree(const LowerPattern& lower, const NodeOrder& order,
+                            const FrontTree& earlier, const EarlierRows& rows, int threads) {
+  return FrontUpdate(lower, order, earlier, rows).finish(threads);
 }
 
 }  // namespace geotherm

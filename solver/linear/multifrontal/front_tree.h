@@ -76,6 +76,11 @@ struct FrontTree {
   const Index* places_in_parent(Index s) const { return place_in_parent.data() + below_start[s]; }
 };
 
+/// Columns whose patterns are the same but for their own rows, and beyond that narrow children
+/// with their parents where that stores few zeros (Ashcraft, Grimes 1989): dense kernels want some
+/// columns at a time. Precondition: columns in postorder. Cost: O(n).
+Supernodes find_supernodes(const ColumnCounts& counts);
+
 /// Builds the fronts of a pattern. Where largest_panel is beyond what an Index counts, the rest is
 /// not filled. `pattern`: in elimination order, which must be a postorder; `counts`: of it. The
 /// result does not depend on `threads`. Cost: O(entries of the pattern + rows of all fronts).
@@ -87,5 +92,11 @@ FrontTree build_front_tree(const SymmetricPattern& pattern, const ColumnCounts& 
 /// has the same nodes.
 FrontTree build_front_tree(const SymmetricPattern& pattern, const NodeOrder& order, int threads,
                            const FrontTree* earlier = nullptr);
+
+/// The same where few rows of a pattern have changed since an `earlier` tree with the nodes of the
+/// order: only fronts above these rows are laid out anew. `lower`: the lower triangle of the
+/// pattern.
+FrontTree update_front_tree(const LowerPattern& lower, const NodeOrder& order,
+                            const FrontTree& earlier, const EarlierRows& rows, int threads);
 
 }  // namespace geotherm

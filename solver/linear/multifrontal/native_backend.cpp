@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <algorithm>
 #include <limits>
 #include <numeric>
 #include <string>
@@ -71,13 +72,24 @@ Error out_of_memory(const std::string& what, Index size) {
 }
 
 /// What a factorisation can take over; nothing where the earlier factor is none of this backend.
-EarlierFronts fronts_of(const EarlierFactor* earlier) {
-  if (earlier == nullptr) return {};
+KeptTasks kept_of(const EarlierFactor& earlier, const FrontTree& tree, FactorStorage storage) {
   const TriangularFactor* const factor =
-      earlier->factor != nullptr ? triangular_factor_of(*earlier->factor) : nullptr;
+      earlier.factor != nullptr ? triangular_factor_of(*earlier.factor) : nullptr;
   const auto* const native = dynamic_cast<const NativeFactor*>(factor);
-  if (native == nullptr) return {nullptr, nullptr, earlier->changed};
-  return {&native->fronts(), &native->numbers(), earlier->changed};
+  if (native == nullptr) return {{nullptr, nullptr, earlier.changed}, {}};
+  const EarlierFronts fronts{&native->fronts(), &native->numbers(), earlier.changed};
+  return {fronts, find_unchanged(tree, storage, fronts)};
+}
+
+/// A flag for each column whose numbers are not taken over; empty where none are.
+std::vector<char> columns_to_factorize(const FrontTree& tree, const KeptTasks& kept) {
+  std::vector<char> wanted(kept.unchanged.empty() ? 0 : static_cast<std::size_t>(tree.size()), 1);
+  for (std::size_t t = 0; t < kept.unchanged.size(); ++t) {
+    const FrontTask& task = tree.tasks[t];
+    std::fill(wanted.begin() + tree.nodes.first[task.begin],
+              wanted.begin() + tree.nodes.first[task.end], kept.unchanged[t] == 0 ? 1 : 0);
+  }
+  return wanted;
 }
 
 class NativeAnalysis final : public Analysis {
@@ -86,14 +98,15 @@ class NativeAnalysis final : public Analysis {
                  std::shared_ptr<const FrontTree> tree, int threads)
       : order_(std::move(order)), pattern_(pattern), tree_(std::move(tree)), threads_(threads) {}
 
-  /// `order`: that of `eliminated`, of which `tree` was built.
+  /// `order`: that of `eliminated`, a pattern or its lower triangle, of which `tree` was built.
+  template <class Pattern>
   static Result<std::shared_ptr<const Analysis>> make(std::vector<Index> order,
-                                                      const SymmetricPattern& eliminated,
-                                                      FrontTree tree, int threads) {
+                                                      const Pattern& eliminated, FrontTree tree,
+                                                      int threads) {
     if (tree.largest_panel > std::numeric_limits<Index>::max()) {
       return out_of_memory(
           "would need a front of " + std::to_string(tree.largest_panel) + " numbers",
-          eliminated.size());
+          static_cast<Index>(order.size()));
     }
     const std::uint64_t hash = pattern_hash(eliminated, threads);
     return std::shared_ptr<const Analysis>(std::make_shared<NativeAnalysis>(
@@ -123,6 +136,16 @@ class NativeAnalysis final : public Analysis {
     return out_of_memory("ran out of memory in the analysis", eliminated.size());
   }
 
+  Result<std::shared_ptr<const Analysis>> update(const NodeOrder& order, const LowerPattern& lower,
+                                                 const EarlierRows& rows,
+                                                 int threads) const override try {
+    return make(order.order, lower, update_front_tree(lower, order, *tree_, rows, threads),
+                threads);
+  } catch (const std::bad_alloc&) {
+    return out_of_memory("ran out of memory in the analysis",
+                         static_cast<Index>(order.order.size()));
+  }
+
   Result<std::unique_ptr<Factorization>> factorize(std::shared_ptr<const SymmetricOperator> matrix,
                                                    const FactorOptions& options) const override
       try {
@@ -133,9 +156,11 @@ class NativeAnalysis final : public Analysis {
     FrontFactor factor;
     FactorOptions kept = options;
     kept.storage = storage_for(options.storage);
-    const EarlierFronts before = fronts_of(options.earlier);
-    FactorFailure failure = factorize_fronts(*tree_, matrix->assembled(), kept, factor,
-                                             options.earlier != nullptr ? &before : nullptr);
+    KeptTasks tasks;
+    if (options.earlier != nullptr) tasks = kept_of(*options.earlier, *tree_, kept.storage);
+    FactorFailure failure =
+        factorize_fronts(*tree_, matrix->assembled_where(columns_to_factorize(*tree_, tasks)), kept,
+                         factor, options.earlier != nullptr ? &tasks : nullptr);
     const bool unsafe = failure.narrow || factor.cancellation > kMaxCancellation;
     if (kept.storage != FactorStorage::kFull && unsafe && failure.column == kNoIndex) {
       kept.storage = FactorStorage::kFull;
