@@ -147,6 +147,31 @@ void draw_typed(Frame& frame) {
   if (!form.error.empty()) draw_note(form.error, frame.colours().error);
 }
 
+/// What the centre of the sources is, and where.
+void draw_centre(Frame& frame) {
+  const auto& kind = frame.state().centre;
+  draw_label(frame, "centre",
+             "Of the sources: where the sum of squared distances is least (mean), or that of the "
+             "distances (median), and the shortest paths from there.");
+  const bool possible = frame.model() != nullptr;
+  const int clicked =
+      draw_segments(frame, {{"centre none", "none", !kind, possible},
+                            {"centre mean", "mean", kind == CentreKind::kMean, possible},
+                            {"centre median", "median", kind == CentreKind::kMedian, possible}});
+  if (clicked == 0) frame.send(app::command::ShowCentre{});
+  if (clicked > 0) frame.send(app::command::ShowCentre{static_cast<CentreKind>(clicked - 1)});
+  if (const auto& failure = frame.explored().centre_failure; kind && failure) {
+    draw_note(sentence(*failure), frame.colours().warning);
+  }
+  if (!kind || !frame.explored().centre) return;
+  const Centre& centre = frame.explored().centre->centres.found.front();
+  draw_value(frame, "energy", app::significant(centre.energy, 4), "",
+             *kind == CentreKind::kMean ? "Mean of the squared distances to the sources."
+                                        : "Mean of the distances to the sources.");
+  draw_value(frame, "farthest", app::significant(std::ranges::max(centre.distances), 4), "",
+             "Largest distance to a source, model units.");
+}
+
 /// A button of the grid below the fields.
 struct SourceButton {
   const char* key;
@@ -183,6 +208,7 @@ void draw_sources_panel(Frame& frame) {
     }
     draw_tip(frame, button.tip);
   }
+  draw_centre(frame);
 }
 
 }  // namespace geotherm::ui

@@ -6,9 +6,9 @@
 
 #include "app/cli/commands.h"
 #include "app/session/model.h"
-#include "app/session/model_solver.h"
 #include "app/session/progress.h"
 #include "app/session/report.h"
+#include "app/session/source_centre.h"
 #include "app/session/sources.h"
 #include "app/session/wording.h"
 #include "app/text/text.h"
@@ -87,26 +87,6 @@ Result<void> place(const std::vector<Source>& named, CentreFigures& figures) {
                    {"write vertex ids, random:K, face:ID:b0:b1:b2 or xyz:x:y:z, without offsets"}};
     }
     figures.points.push_back(*point);
-  }
-  return {};
-}
-
-/// The shortest paths from the best centre to the points.
-Result<void> find_ways(const Progress& progress, CentreFigures& figures) {
-  MethodOptions options;
-  options.method = MethodKind::kWavefront;
-  options.threads = figures.options.threads;
-  ModelSolver solver(figures.model);
-  const auto ready = solver.prepare(options, part_of(progress, 0, 0.3));
-  if (!ready) return ready.error();
-  const PathFinder finder(figures.model.mesh, ready->method);
-  const SurfacePoint centre = figures.centres.found.front().point;
-  for (std::size_t i = 0; i < figures.points.size(); ++i) {
-    if (!(figures.centres.found.front().distances[i] > 0)) continue;
-    const std::array<SurfacePoint, 2> ends = {centre, figures.points[i]};
-    auto found = finder.find(ends, {}, part_of(progress, 0.3, 0.3));
-    if (!found) return about_model(figures.model.name, found.error());
-    figures.paths.push_back(std::move(found->path));
   }
   return {};
 }
@@ -243,7 +223,10 @@ Result<CommandOutput> run_centre(const CentreArguments& arguments, const Progres
 
   CommandOutput out{"", figures.warnings, {}};
   if (!arguments.files.outputs.empty()) {
-    if (auto ways = find_ways(part_of(progress, 0.8, 1), figures); !ways) return ways.error();
+    auto ways = ways_from(figures.model, figures.centres.found.front(), figures.points,
+                          figures.options.threads, part_of(progress, 0.8, 1));
+    if (!ways) return ways.error();
+    figures.paths = *std::move(ways);
     const auto written = write_line_files(arguments.files, picture_of(figures), asked->picture,
                                           progress, outputs, out);
     if (!written) return written.error();

@@ -207,6 +207,7 @@ Result<CommandOutput> run_log_map(const LogMapArguments& arguments, const Progre
     Json json = work_json(*work, "log_map", map_ms);
     json["reached"] = reached;
     json["method"] = to_text(options.method);
+    json["in_doubt"] = map->in_doubt;
     json["log_map"] = {{"distances", map->distances}, {"directions", map->directions}};
     const auto written = outputs.write_text(arguments.json, report_text(std::move(json)), out.text);
     if (!written) return written.error();
@@ -215,6 +216,9 @@ Result<CommandOutput> run_log_map(const LogMapArguments& arguments, const Progre
     TextTable table = work_table(*work);
     table.add_row({"log map",
                    counted(reached, "vertex", "vertices") + " in " + milliseconds(map_ms) + " ms"});
+    if (map->in_doubt > 0) {
+      table.add_row({"in doubt", counted(map->in_doubt, "direction", "directions")});
+    }
     out.text = table.text();
   }
   out.made = outputs.made();

@@ -52,6 +52,7 @@ class Applier {
     if (s_.sources.empty()) s_.sources = {kFirstSource};
     s_.picked.reset();
     s_.target.reset();
+    s_.centre.reset();
     s_.field.clear();
     s_.max_distance = kUnreached;
     // Lengths in units of the old model are reset.
@@ -303,6 +304,11 @@ class Applier {
                        "write one vertex, face:ID:b0:b1:b2 or xyz:x:y:z");
     }
     s_.target = c.point;
+    return {};
+  }
+
+  Result<void> operator()(const command::ShowCentre& c) {
+    s_.centre = c.kind;
     return {};
   }
 

@@ -10,6 +10,7 @@
 #include "app/session/sculpture.h"
 #include "app/session/sources.h"
 #include "app/session/state.h"
+#include "geotherm/directions.h"
 #include "geotherm/error.h"
 #include "geotherm/types.h"
 
@@ -178,6 +179,12 @@ struct Target {                     // target SPEC, target none
   bool operator==(const Target&) const = default;
 };
 
+/// Shows the centre of the sources and the shortest paths from there; none: no longer.
+struct ShowCentre {  // source centre mean|median|none
+  std::optional<CentreKind> kind;
+  bool operator==(const ShowCentre&) const = default;
+};
+
 /// Shows values, vectors or a log map of the vertices from a file in place of distances; empty: no
 /// longer.
 struct ShowField {  // field FILE, field none
@@ -240,18 +247,17 @@ struct Quit {  // quit
 
 }  // namespace command
 
-using Command =
-    std::variant<command::Open, command::Reset, command::Run, command::Set, command::SetSources,
-                 command::AddSources, command::MoveSource, command::RemoveSource,
-                 command::ExtendCurve, command::ClearSources, command::MoreSources,
-                 command::FewerSources, command::ShuffleSources, command::Sculpt,
-                 command::ExtendStroke, command::ShowSequence, command::ShowFrame, command::Play,
-                 command::Loop, command::Orbit, command::Zoom, command::Pan, command::Centre,
-                 command::Place, command::Frame, command::Rotate, command::Keep, command::Forget,
-                 command::Swap, command::Show, command::Flip, command::Pick, command::Target,
-                 command::ShowField, command::MaxDistance, command::Compare, command::SavePicture,
-                 command::SaveDistances, command::SaveMesh, command::SaveSession, command::SaveLog,
-                 command::SaveFigures, command::Undo, command::Redo, command::Quit>;
+using Command = std::variant<
+    command::Open, command::Reset, command::Run, command::Set, command::SetSources,
+    command::AddSources, command::MoveSource, command::RemoveSource, command::ExtendCurve,
+    command::ClearSources, command::MoreSources, command::FewerSources, command::ShuffleSources,
+    command::Sculpt, command::ExtendStroke, command::ShowSequence, command::ShowFrame,
+    command::Play, command::Loop, command::Orbit, command::Zoom, command::Pan, command::Centre,
+    command::Place, command::Frame, command::Rotate, command::Keep, command::Forget, command::Swap,
+    command::Show, command::Flip, command::Pick, command::Target, command::ShowCentre,
+    command::ShowField, command::MaxDistance, command::Compare, command::SavePicture,
+    command::SaveDistances, command::SaveMesh, command::SaveSession, command::SaveLog,
+    command::SaveFigures, command::Undo, command::Redo, command::Quit>;
 
 /// One line without its end. parse_command(to_text(c)) == c for every command that can be parsed.
 std::string to_text(const Command& command);

@@ -192,6 +192,13 @@ Result<Command> read_target(WordReader& reader) {
   return Command(command::Target{*point});
 }
 
+Result<Command> read_source_centre(WordReader& reader) {
+  const auto kind = reader.one_of({"mean", "median", "none"});
+  if (!kind) return kind.error();
+  if (*kind == 2) return Command(command::ShowCentre{});
+  return Command(command::ShowCentre{static_cast<CentreKind>(*kind)});
+}
+
 Result<Command> read_field(WordReader& reader) {
   const std::string& path = reader.next();
   return Command(command::ShowField{path == "none" ? "" : path});
@@ -243,6 +250,7 @@ const Form kForms[] = {
     {"source more", "", 0, 0, plain<command::MoreSources>},
     {"source fewer", "", 0, 0, plain<command::FewerSources>},
     {"source shuffle", "", 0, 0, plain<command::ShuffleSources>},
+    {"source centre", "mean|median|none", 1, 1, read_source_centre},
     {"sculpt pull", "RADIUS STRENGTH POINT...", 3, kAny, read_sculpt<SculptTool::kPull>},
     {"sculpt push", "RADIUS STRENGTH POINT...", 3, kAny, read_sculpt<SculptTool::kPush>},
     {"sculpt smooth", "RADIUS STRENGTH POINT...", 3, kAny, read_sculpt<SculptTool::kSmooth>},

@@ -341,6 +341,9 @@ struct Printer {
   std::string operator()(const command::Target& c) const {
     return "target " + (c.point ? to_text(*c.point) : "none");
   }
+  std::string operator()(const command::ShowCentre& c) const {
+    return "source centre " + (c.kind ? geotherm::to_text(*c.kind) : "none");
+  }
   std::string operator()(const command::Compare& c) const { return words("compare", {c.backends}); }
   std::string operator()(const command::SavePicture& c) const {
     std::string text = words("save picture", {c.path});

@@ -98,6 +98,11 @@ void set_answer(PictureData& data, const Explored& explored, Shown shown, View v
   const TriangleMesh& mesh = *model.mesh;
   add_sources(data, mesh, explored.set, places_in_cells(model, explored.set));
   add_paths(data, mesh, explored.paths);
+  if (explored.centre) {
+    for (const SurfacePath& way : explored.centre->ways) {
+      add_line(data, positions_of(mesh, way), to_text(explored.centre->kind));
+    }
+  }
   if (view == View::kExactError) {  // nothing, where nothing is known of the error
     if (answer.error && !answer.error->values.empty()) {
       add_error(data, answer.error->values, error_title(*answer.error));

@@ -11,6 +11,7 @@
 #include "app/picture/target_paths.h"
 #include "app/session/answer.h"
 #include "app/session/model.h"
+#include "app/session/source_centre.h"
 #include "app/session/state.h"
 #include "app/session/vertex_field.h"
 #include "geotherm/heat_method.h"
@@ -52,11 +53,13 @@ struct Explored {
     double largest = 0;          ///< distance of A
   };
   std::shared_ptr<const Difference> difference;
-  std::shared_ptr<const VertexField> field;  ///< shown in place of answers; null: none
-  std::vector<TargetPath> paths;             ///< to ViewerState::target
-  std::optional<Warning> path_failure;       ///< why there are none although there is a target
-  std::optional<Error> b_failure;            ///< why there is no B although settings are kept
-  bool checked = false;       ///< true if these answers were shown before, without their errors
+  std::shared_ptr<const VertexField> field;    ///< shown in place of answers; null: none
+  std::vector<TargetPath> paths;               ///< to ViewerState::target
+  std::shared_ptr<const SourceCentre> centre;  ///< of the sources; null: none is wanted, or not yet
+  std::optional<Warning> centre_failure;       ///< why there is none although one is wanted
+  std::optional<Warning> path_failure;         ///< why there are none although there is a target
+  std::optional<Error> b_failure;              ///< why there is no B although settings are kept
+  bool checked = false;  ///< true if these answers were shown before, without errors and centre
   std::uint64_t version = 0;  ///< incremented with every change
 };
 

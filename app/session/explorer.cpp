@@ -313,40 +313,6 @@ Result<std::shared_ptr<const Answer>> Explorer::answer(const ExploreRequest& req
   return std::make_shared<const Answer>(*std::move(answer));
 }
 
-/// If no path is found, the distances are still shown.
-Result<void> Explorer::find_paths(const ExploreRequest& request, Explored& explored,
-                                  const Progress& progress) {
-  const Source target{*request.target, "target " + to_text(*request.target), ErrorCode::kBadInput};
-  const auto placed = resolve_sources({&target, 1}, *model_->model.mesh);
-  auto found =
-      placed ? solver_->paths_to(placed->set.points.front(), *explored.a, PathKind::kAll, progress)
-             : Result<TargetPaths>(placed.error());
-  if (!found && found.error().code == ErrorCode::kCancelled) return found.error();
-  if (!found) {
-    explored.path_failure = warning_of(found.error());
-  } else {
-    explored.paths = std::move(found->paths);
-  }
-  return {};
-}
-
-/// Hands the answers out as they are, and then holds them against better ones.
-Result<void> Explorer::check_afterwards(const ExploreRequest& request, Explored& explored,
-                                        const Progress& progress, const Early& early) {
-  if (request.check != Check::kOn || request.max_distance < kUnreached) return {};
-  early(explored);
-  explored.checked = true;
-  for (auto* const answer : {&explored.a, &explored.b}) {
-    if (!*answer) continue;
-    auto checked = std::make_shared<Answer>(**answer);
-    auto done = solver_->check(*checked, {.against = request.check, .quick = !request.quality},
-                               with_prefix(progress, "checking: "));
-    if (!done) return done;
-    *answer = std::move(checked);
-  }
-  return {};
-}
-
 Result<Explored> Explorer::explore(const ExploreRequest& request, const Progress& progress,
                                    const Early& early) try {
   if (auto loaded = load(request, progress, early); !loaded) return loaded.error();
@@ -389,7 +355,7 @@ Result<Explored> Explorer::explore(const ExploreRequest& request, const Progress
     }
   }
   solver_->drop_unwanted();
-  if (auto done = check_afterwards(request, explored, progress, early); !done) return done.error();
+  if (auto done = follow_up(request, explored, progress, early); !done) return done.error();
   return explored;
 } catch (const std::bad_alloc&) {
   return Error{ErrorCode::kOutOfMemory,

@@ -38,6 +38,7 @@ struct ExploreRequest {
   Check check = Check::kOff;
   bool nearest = false;              ///< DistanceResult::nearest_source of A
   std::optional<SourceSpec> target;  ///< Explored::paths
+  std::optional<CentreKind> centre;  ///< Explored::centre
   double max_distance = kUnreached;  ///< model units
   std::string field;                 ///< a file of what is shown in place of distances; empty: none
 
@@ -51,7 +52,8 @@ struct ExploreRequest {
     return same_setup(other) && pose == other.pose && sources == other.sources &&
            fields >= other.fields && quality >= other.quality && nearest >= other.nearest &&
            (check == other.check || other.check == Check::kOff) && target == other.target &&
-           max_distance == other.max_distance && field == other.field;
+           (centre == other.centre || !other.centre) && max_distance == other.max_distance &&
+           field == other.field;
   }
 };
 
@@ -59,7 +61,8 @@ struct ExploreRequest {
 /// a time.
 class Explorer {
  public:
-  /// Receives partial results: the model before it is solved on, answers before they are checked.
+  /// Receives partial results: the model before it is solved on, answers before the centre of their
+  /// sources and the check.
   using Early = std::function<void(Explored)>;
 
   /// Errors: those of load_model, resolve_sources and ModelSolver; kCancelled.
@@ -83,8 +86,11 @@ class Explorer {
                                                const Progress& progress);
   Result<void> find_paths(const ExploreRequest& request, Explored& explored,
                           const Progress& progress);
-  Result<void> check_afterwards(const ExploreRequest& request, Explored& explored,
-                                const Progress& progress, const Early& early);
+  Result<void> find_centre(const ExploreRequest& request, Explored& explored,
+                           const Progress& progress);
+  bool knows_centre(const ExploreRequest& request, Explored& explored) const;
+  Result<void> follow_up(const ExploreRequest& request, Explored& explored,
+                         const Progress& progress, const Early& early);
 
   std::shared_ptr<const ExploredModel> read_;   ///< as its file has it
   std::shared_ptr<const ExploredModel> model_;  ///< in the pose `pose_`
@@ -113,6 +119,12 @@ class Explorer {
     SourceSpec source;
     ResolvedSources places;
   };
+  struct Middle {
+    std::shared_ptr<const TriangleMesh> mesh;
+    SourceSet of;
+    std::shared_ptr<const SourceCentre> centre;
+  };
+  std::optional<Middle> middle_;       ///< the last centre that was found
   std::vector<Placed> placed_;         ///< entries of the last request, in their order
   std::optional<CurveJoiner> joiner_;  ///< of `read_`
 };

@@ -88,6 +88,7 @@ struct Session::State {
   void look_head_on();
   void note_warnings(const Explored& before);
   void note_error(const Explored& before);
+  void note_centre(const Explored& before);
   void take_answer(const ExploreRequest& request, Result<Explored> answer);
   Result<void> start_compare(const command::Compare& command);
   ExploreRequest studied_request() const;

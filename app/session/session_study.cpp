@@ -42,6 +42,7 @@ ExploreRequest Session::State::studied_request() const {
   request.options.time_step.factor = 1;
   request.kept.reset();
   request.target.reset();
+  request.centre.reset();
   request.fields = request.nearest = false;
   request.check = Check::kOff;
   return request;

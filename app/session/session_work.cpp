@@ -38,9 +38,10 @@ bool is_same_surface(const ExploredModel& a, const ExploredModel& b) {
   return a.model.mesh->faces().data() == b.model.mesh->faces().data();
 }
 
-/// What is asked for but for the check of answers that are shown before it.
-ExploreRequest without_check(ExploreRequest request) {
+/// What is asked for but for what follows once answers are shown: their check, a centre.
+ExploreRequest answers_of(ExploreRequest request) {
   if (request.check == Check::kOn) request.check = Check::kOff;
+  request.centre.reset();
   return request;
 }
 
@@ -63,6 +64,7 @@ ExploreRequest Session::State::wanted() const {
   // What moves is not checked: it comes to rest first.
   if (dragging && request.check == Check::kOn) request.check = Check::kOff;
   request.target = state.target;
+  if (!dragging) request.centre = state.centre;
   request.max_distance = state.max_distance;
   request.field = state.field;
   request.nearest = view == View::kRegions;
@@ -74,10 +76,10 @@ bool Session::State::works() {
   return !inbox.empty() || compare.running || (worker && worker->status().busy);
 }
 
-/// Whether what was asked for last is shown and only held against a better method.
+/// Whether what was asked for last is shown, and only its check or a centre is missing.
 bool Session::State::only_checks() const {
-  return requested && requested->check == Check::kOn && answered &&
-         answered->covers(without_check(*requested));
+  return requested && (requested->check == Check::kOn || requested->centre) && answered &&
+         answered->covers(answers_of(*requested));
 }
 
 /// Starts what the state asks for and nobody works on.
@@ -99,7 +101,7 @@ void Session::State::start(const ExploreRequest& request) {
   failure.clear();
   const auto job = [this, request](const Progress& progress) {
     Answered message{request, explorer.explore(request, progress, [&](Explored early) {
-                       post(Early{request.opening, std::move(early), without_check(request)});
+                       post(Early{request.opening, std::move(early), answers_of(request)});
                      })};
     post(std::move(message));
   };
@@ -216,6 +218,7 @@ void Session::State::take_answer(const ExploreRequest& request, Result<Explored>
   if (is_last && explored.b_failure) say_failure(*explored.b_failure);
   if (!explored.a) return;
   if (explored.checked) {
+    note_centre(before);
     note_error(before);
     return;
   }
@@ -246,10 +249,22 @@ void Session::State::note_warnings(const Explored& before) {
   }
 }
 
+void Session::State::note_centre(const Explored& before) {
+  if (const auto& none = explored.centre_failure; none && none != before.centre_failure) {
+    note(LogLine::Kind::kWarning, "no centre: " + none->message, none->hint);
+  }
+  if (!explored.centre || explored.centre == before.centre) return;
+  const Centres& centres = explored.centre->centres;
+  note(LogLine::Kind::kNote, geotherm::to_text(explored.centre->kind) + " of the sources: energy " +
+                                 significant(centres.found.front().energy));
+  for (const Warning& warning : centres.warnings) note(LogLine::Kind::kWarning, warning);
+}
+
 /// How wrong the answer is that was shown before.
 void Session::State::note_error(const Explored& before) {
   const auto& error = explored.a->error;
-  if (error && error->measured && !error->is_poor()) {
+  const bool known = before.a && before.a->error == error;
+  if (error && error->measured && !error->is_poor() && !known) {
     Warning line = accuracy_line(*error);
     line.message.insert(0, "error: ");
     note(LogLine::Kind::kNote, line);
@@ -302,7 +317,7 @@ bool Session::stale() const {
   if (s.state.model.empty()) return false;
   ExploreRequest wanted = s.wanted();
   wanted.fields = wanted.quality = false;
-  wanted = without_check(std::move(wanted));
+  wanted = answers_of(std::move(wanted));
   return !s.answered || !s.answered->covers(wanted);
 }
 
@@ -322,7 +337,11 @@ void Session::cancel() {
   s.compare.running = false;  // one that waited says nothing any more
   if (!s.worker || !s.worker->status().busy) return;
   s.worker->cancel();
-  if (s.only_checks()) return s.note(LogLine::Kind::kNote, "the check was cancelled");
+  if (s.only_checks()) {
+    const bool centre = s.requested->centre && !s.explored.centre;
+    return s.note(LogLine::Kind::kNote,
+                  centre ? "the search for the centre was cancelled" : "the check was cancelled");
+  }
   s.close_opening();
   // What waited says nothing any more, so it is said here.
   s.first_error = Error{

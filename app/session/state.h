@@ -12,6 +12,7 @@
 #include "app/session/sculpture.h"
 #include "app/session/sources.h"
 #include "geotherm/build_method.h"
+#include "geotherm/directions.h"
 
 namespace geotherm::app {
 
@@ -44,6 +45,7 @@ struct ViewerState {
   Shown shown = Shown::kA;            ///< kA unless `kept`
   Check check = Check::kOn;           ///< the view exact-error means kAuto where it is off or on
   std::optional<SourceSpec> target;   ///< paths lead from this single point to the sources
+  std::optional<CentreKind> centre;   ///< of the sources, which is shown; none: no centre
   double max_distance = kUnreached;   ///< distances beyond it are not asked for, model units
   std::string field;                  ///< a file shown in place of distances; empty: none
   PictureSettings picture;            ///< width and height: of saved pictures

@@ -53,6 +53,7 @@ std::vector<Command> commands_to(const ViewerState& state) {
   if (!state.field.empty()) commands.emplace_back(command::ShowField{state.field});
   if (state.shown != Shown::kA) commands.emplace_back(command::Show{state.shown});
   if (state.target) commands.emplace_back(command::Target{state.target});
+  if (state.centre) commands.emplace_back(command::ShowCentre{state.centre});
   if (state.picked) commands.emplace_back(command::Pick{state.picked});
   if (timeline.playing) commands.emplace_back(command::Play{true});
   if (state.rotating) commands.emplace_back(command::Rotate{true});
@@ -79,7 +80,8 @@ UndoRule undo_rule(const Command& command) {
              command::SetSources, command::AddSources, command::RemoveSource, command::ClearSources,
              command::MoreSources, command::FewerSources, command::ShuffleSources, command::Sculpt,
              command::Keep, command::Forget, command::Swap, command::Show, command::Flip,
-             command::Target, command::ShowField, command::MaxDistance>*>(nullptr));
+             command::Target, command::ShowCentre, command::ShowField, command::MaxDistance>*>(
+          nullptr));
   return {undoable, merged};
 }
 

@@ -38,6 +38,8 @@ WindowLoop::~WindowLoop() = default;
 
 Result<std::unique_ptr<WindowLoop>> WindowLoop::open(const ViewerStart& start) {
   std::unique_ptr<WindowLoop> loop(new WindowLoop(start));
+  // The model is read while the window opens.
+  if (auto begun = loop->begin_session(); !begun) return begun.error();
   engine::WindowOptions options;
   if (start.width > 0) options.size = {start.width, start.height};
   auto window = engine::Window::open(options);
@@ -46,8 +48,6 @@ Result<std::unique_ptr<WindowLoop>> WindowLoop::open(const ViewerStart& start) {
                                       " draw without a display"});
   }
   loop->window_ = *std::move(window);
-  // The model is read meanwhile.
-  if (auto begun = loop->begin_session(); !begun) return begun.error();
   if (auto opened = loop->open_screen(); !opened) return opened.error();
   loop->window_->connect_panels();
   loop->layout_path_ = ui::layout_path();

@@ -6,6 +6,7 @@
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 
+#include <atomic>
 #include <cassert>
 #include <mutex>
 #include <utility>
@@ -21,8 +22,8 @@ constexpr glm::ivec2 kSmallestSize(320, 240);
 /// GLFW is one for the whole program, and it may be woken from any thread, also while the window
 /// opens or closes. This is all that is kept outside of objects.
 struct Glfw {
-  std::mutex mutex;
-  bool open = false;
+  std::mutex mutex;  ///< while it opens, closes or is woken
+  std::atomic<bool> open = false;
 };
 Glfw& glfw() {
   static Glfw the_only_one;
@@ -175,6 +176,7 @@ bool Window::wait(double seconds) {
 }
 
 void Window::wake() {
+  if (!glfw().open) return;  // nothing waits; while it opens, others go on
   const std::lock_guard lock(glfw().mutex);
   if (glfw().open) glfwPostEmptyEvent();
 }

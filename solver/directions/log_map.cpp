@@ -7,6 +7,7 @@
 #include <string>
 #include <utility>
 
+#include "solver/core/text.h"
 #include "solver/directions/directions_state.h"
 #include "solver/directions/wave_directions.h"
 #include "solver/method/reach.h"
@@ -131,14 +132,18 @@ WaveStart wave_start(const Directions::State& state, const SourceSeeds& seeds, c
   return out;
 }
 
+/// Of each edge.
+int samples_of(MethodKind waves) { return waves == MethodKind::kWavefront ? 1 : 3; }
+
 Warning in_doubt(Index vertices, std::int64_t of, MethodKind method) {
   Hint hint = {"use ", SettingHint{"method", {"exact"}}};
   if (method == MethodKind::kWavefront) {
     hint = {"use ", SettingHint{"method", {"exact", "wavefront-fine"}}};
   }
   return {"the directions of " + std::to_string(vertices) + " of " + std::to_string(of) +
-              " vertices hang on which of two paths is the shorter, and waves cannot tell lengths "
-              "that differ by less than a thousandth",
+              " vertices hang on which of two paths is the shorter, and these waves cannot tell "
+              "lengths that differ by less than " +
+              rounded_text(100 * close_share(samples_of(method))) + " %",
           std::move(hint)};
 }
 
@@ -149,7 +154,7 @@ Result<LogMap> by_waves(const Directions::State& state, const SourceSeeds& seeds
     state.tables = std::make_unique<const WaveTables>(build_wave_tables(*state.surface));
   });
   const double unit = state.surface->base.length_unit();
-  const int samples = options.method == MethodKind::kWavefront ? 1 : 3;
+  const int samples = samples_of(options.method);
   std::vector<Index> ranks;
   for (const Index v : options.targets) {
     const Index rank = state.tables->rank_of_vertex[state.paths.mesh()->standing_for(v)];
@@ -182,6 +187,7 @@ Result<LogMap> by_waves(const Directions::State& state, const SourceSeeds& seeds
   WaveDirections found = wave_directions(*state.surface, *state.tables, front, samples, begin);
   const auto known = std::ranges::count_if(found.of, [](double x) { return !std::isnan(x); });
   map.directions = std::move(found.of);
+  map.in_doubt = found.in_doubt;
   if (static_cast<double>(found.in_doubt) > kMaxDoubt * static_cast<double>(known)) {
     map.warnings.push_back(in_doubt(found.in_doubt, known, options.method));
   }

@@ -19,9 +19,9 @@ using direction_waves::fit_wave;
 using Point2 = Eigen::Vector2d;
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-/// Where a second way is longer by less than this share of it, and leaves the source in a direction
-/// that differs by so many radians, waves cannot tell which is the shortest.
-constexpr double kClose = 1e-3, kOtherWay = 0.2;
+/// Where a second way is longer by less than close_share() of it, and leaves the source in a
+/// direction that differs by so many radians, waves cannot tell which is the shortest.
+constexpr double kOtherWay = 0.2;
 /// Neighbours on an edge whose directions differ by more than so many times what their distance
 /// explains, and so many radians, are of paths that pass something on two sides.
 constexpr double kTorn = 3, kTornAngle = 0.05;
@@ -36,6 +36,7 @@ class DirectionPass {
         front_(front),
         samples_(samples),
         start_(start),
+        close_(close_share(samples)),
         count_(static_cast<std::size_t>(tables.vertex_count())),
         direction_(count_ + static_cast<std::size_t>(samples) *
                                 static_cast<std::size_t>(tables.edge_count()),
@@ -134,7 +135,7 @@ class DirectionPass {
     const auto best = std::ranges::min_element(ways_, {}, &Way::value);
     if (best != ways_.end()) {
       const auto is_other = [&](const Way& way) {
-        return way.value < (1 + kClose) * best->value &&
+        return way.value < (1 + close_) * best->value &&
                std::abs(difference(best->direction, way.direction)) > kOtherWay;
       };
       direction_[node] = best->direction;
@@ -145,7 +146,7 @@ class DirectionPass {
   }
 
   /// Whether a way of this length can be the best, or as good.
-  bool counts(double value) const { return value < (1 + kClose) * shortest_; }
+  bool counts(double value) const { return value < (1 + close_) * shortest_; }
   void add(const Way& way) {
     ways_.push_back(way);
     shortest_ = std::min(shortest_, way.value);
@@ -256,6 +257,7 @@ class DirectionPass {
   const WaveFront& front_;
   int samples_;
   const WaveStart& start_;
+  double close_;
   std::size_t count_;
   std::vector<double> direction_;
   std::vector<char> in_doubt_;
@@ -265,6 +267,8 @@ class DirectionPass {
 };
 
 }  // namespace
+
+double close_share(int samples) { return samples == 1 ? 4e-3 : 1e-3; }
 
 WaveDirections wave_directions(const WaveSurface& surface, const WaveTables& tables,
                                const WaveFront& front, int samples, const WaveStart& start) {

@@ -23,8 +23,11 @@ struct WaveStart {
   std::vector<double> known;  ///< V: directions that are known already, no number elsewhere
 };
 
+/// Lengths that differ by less than this share are one to waves with so many samples an edge.
+double close_share(int samples);
+
 /// Directions of vertices, and how many of these hang on which of two ways is the shorter, which a
-/// wave cannot tell: their lengths differ by less than a thousandth.
+/// wave cannot tell: their lengths differ by less than close_share().
 struct WaveDirections {
   std::vector<double> of;  ///< V, no number where there is no path
   Index in_doubt = 0;

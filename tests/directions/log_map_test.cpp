@@ -251,6 +251,7 @@ TEST(LogMap, ByWavesSaysWhereItHangsOnWhichPathIsTheShorter) {
   ASSERT_EQ(found.size(), 1U);
   EXPECT_NE(found[0].message.find("directions of "), std::string::npos);
   EXPECT_FALSE(settings_of(found[0].hint).empty());
+  EXPECT_NE(found[0].message.find("less than 0.4 %"), std::string::npos);
   EXPECT_TRUE(warnings(hills, {}).empty());
   EXPECT_TRUE(warnings(plane, waves).empty());
 }

@@ -64,6 +64,28 @@ TEST_F(SessionMesh, DistancesEndWhereTheyAreTold) {
   EXPECT_NE(refused("max-distance 0").find("number"), std::string::npos);
 }
 
+TEST_F(SessionMesh, TheCentreOfSourcesIsShownWithItsWays) {
+  write(folder() + "square.obj",  // the mean of its corners is the middle, whatever the diagonal
+        "v 0 0 0\nv 2 0 0\nv 2 2 0\nv 0 2 0\nf 1 2 3\nf 1 3 4\n");
+  run({"open " + folder() + "square.obj", "source set 0,1,2,3", "check on", "source centre mean"});
+  ASSERT_TRUE(session.explored().centre);
+  const geotherm::Centre& centre = session.explored().centre->centres.found.front();
+  const Vec3 at = position_at(*session.explored().model->model.mesh, centre.point);
+  EXPECT_LT((at - Vec3(1, 1, 0)).norm(), 1e-6);
+  EXPECT_NEAR(centre.energy, 2, 1e-6);
+  EXPECT_TRUE(session.explored().a->error) << "it is checked all the same";
+  const PictureData data = picture_of(session.explored(), Shown::kA, View::kContours);
+  EXPECT_EQ(std::ranges::count(data.lines, "mean", &PictureData::Line::name), 4);
+  const auto again = commands_to(session.state());
+  EXPECT_EQ(std::ranges::count(again, Command(command::ShowCentre{CentreKind::kMean})), 1);
+  run({"source add boundary"});
+  EXPECT_FALSE(session.explored().centre);
+  EXPECT_NE(session.explored().centre_failure->message.find("curves"), std::string::npos);
+  run({"undo", "undo"});
+  EXPECT_FALSE(session.state().centre);
+  EXPECT_FALSE(session.explored().centre);
+}
+
 TEST_F(SessionMesh, WhatAFileHoldsIsShownInPlaceOfDistances) {
   run({"open " + small_model(), "source set 5", "save distances " + folder() + "d.npy"});
   const PictureData before = picture_of(session.explored(), Shown::kA, View::kContours);

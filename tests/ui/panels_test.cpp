@@ -66,7 +66,6 @@ INSTANTIATE_TEST_SUITE_P(
                       Click{"keep\nbackend cg", {"A and B/show b"}, {"show b"}},
                       Click{"keep\nshow b", {"A and B/show a"}, {"show a"}},
                       Click{"keep", {"A and B/show difference"}, {"show difference"}}));
-
 INSTANTIATE_TEST_SUITE_P(
     View, PanelClicks,
     ::testing::Values(
@@ -92,6 +91,7 @@ INSTANTIATE_TEST_SUITE_P(
 INSTANTIATE_TEST_SUITE_P(
     Others, PanelClicks,
     ::testing::Values(Click{"pick face:3:1:0:0", {"Point/forget"}, {"pick none"}},
+                      Click{"", {"Sources/centre median"}, {"source centre median"}},
                       Click{"target 7", {"Point/forget paths"}, {"target none"}},
                       Click{"", {"Compare backends/run"}, {"compare all"}},
                       Click{"", {"Menu/Edit", "Menu/Clear sources"}, {"source clear"}},

@@ -47,8 +47,10 @@ struct LogMap {
   std::vector<double> distances;   ///< V, model units; kUnreached where no path leads
   std::vector<double> directions;  ///< V, radians, -pi to pi, on a border 0 to its angle, as the
                                    ///< path leaves the point; NaN where there is no path
-  /// One sentence: by waves, how many directions hang on which of two paths is the shorter, where
-  /// that is more than one in a hundred.
+  /// By waves: how many directions hang on which of two paths of almost one length is the shorter,
+  /// which waves cannot tell. Exact maps have none.
+  Index in_doubt = 0;
+  /// One sentence: that number, where it is more than one in a hundred.
   std::vector<Warning> warnings;
 };
 
