@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "app/session/space.h"
 
+#include <algorithm>
 #include <cassert>
 #include <utility>
 
@@ -84,11 +85,14 @@ PolygonSpace::PolygonSpace(std::shared_ptr<const CellComplex> cells,
                            std::shared_ptr<const TriangleMesh> triangles,
                            std::vector<Index> cells_of_faces, std::vector<char> used)
     : Space({"polygons", "polygon", "polygons", "polygon mesh", "triangulation",
-             "mean distance of two corners"},
+             "1.2 times the mean distance of two corners"},
             std::move(used), MethodKind::kWavefront),
       cells_(std::move(cells)),
       triangles_(std::move(triangles)),
-      cells_of_faces_(std::move(cells_of_faces)) {}
+      cells_of_faces_(std::move(cells_of_faces)) {
+  auto numbers = cells_->numbers;
+  count_ = static_cast<Index>(std::unique(numbers.begin(), numbers.end()) - numbers.begin());
+}
 
 namespace {
 
@@ -97,7 +101,7 @@ std::vector<Index> polygons_of_triangles(const PolygonMesh& mesh, const CellComp
   std::vector<Index> out;
   for (std::size_t p = 0; p + 1 < mesh.start.size(); ++p) {
     const auto number = static_cast<Index>(p);
-    const bool kept = cells.numbers.empty() || std::ranges::binary_search(cells.numbers, number);
+    const bool kept = std::ranges::binary_search(cells.numbers, number);
     const std::int64_t triangles = std::max<std::int64_t>(mesh.start[p + 1] - mesh.start[p] - 2, 0);
     out.insert(out.end(), static_cast<std::size_t>(triangles), kept ? number : kNoIndex);
   }
@@ -121,10 +125,9 @@ Result<std::shared_ptr<const PolygonSpace>> PolygonSpace::build(const PolygonMes
                        std::move(of_faces), std::move(used)));
 }
 
-Index PolygonSpace::place_of(Index cell) const {
+Index PolygonSpace::place_of(Index polygon) const {
   const auto& numbers = cells_->numbers;
-  if (numbers.empty()) return cell;
-  return static_cast<Index>(std::ranges::lower_bound(numbers, cell) - numbers.begin());
+  return static_cast<Index>(std::ranges::lower_bound(numbers, polygon) - numbers.begin());
 }
 
 std::vector<Index> PolygonSpace::corners_of(Index cell) const {

@@ -163,7 +163,7 @@ class PolygonSpace final : public Space {
 
   const std::shared_ptr<const TriangleMesh>& triangles() const { return triangles_; }
 
-  Index cell_count() const override { return cells_->cell_count(); }
+  Index cell_count() const override { return count_; }
   std::vector<Index> corners_of(Index cell) const override;
   std::string described() const override;
   std::vector<SpaceFigure> figures() const override;
@@ -184,12 +184,13 @@ class PolygonSpace final : public Space {
   PolygonSpace(std::shared_ptr<const CellComplex> cells,
                std::shared_ptr<const TriangleMesh> triangles, std::vector<Index> cells_of_faces,
                std::vector<char> used);
-  /// The number that a polygon has among the cells.
-  Index place_of(Index cell) const;
+  /// The first of the cells that a polygon is.
+  Index place_of(Index polygon) const;
 
   std::shared_ptr<const CellComplex> cells_;
   std::shared_ptr<const TriangleMesh> triangles_;
   std::vector<Index> cells_of_faces_;
+  Index count_;  ///< of polygons, each of which is several cells
 };
 
 }  // namespace geotherm::app

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What volumes and polygons are like, and what an answer is like in their cells.
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -164,11 +165,12 @@ std::vector<SpaceFigure> PolygonSpace::figures() const {
   double area = 0;
   std::int64_t least = std::numeric_limits<std::int64_t>::max(), most = 0;
   for (Index c = 0; c < cells_->cell_count(); ++c) {
+    area += cells_->measures[c];
+    if (c > 0 && cells_->numbers[c] == cells_->numbers[c - 1]) continue;
     const auto corners = cells_->corners_of(c);
     for (std::size_t k = 0; k < corners.size(); ++k) {
       edges.push_back({corners[k], corners[(k + 1) % corners.size()]});
     }
-    area += cells_->measures[c];
     least = std::min<std::int64_t>(least, std::ssize(corners));
     most = std::max<std::int64_t>(most, std::ssize(corners));
   }
@@ -199,15 +201,17 @@ Index PolygonSpace::components() const {
   return count_sets(sets, used());
 }
 
+/// The mean over the polygon, which hangs on the values along its sides alone.
 Vec3 PolygonSpace::gradient_on(Index cell, std::span<const double> values) const {
-  const Index place = place_of(cell);
-  const auto corners = static_cast<std::int64_t>(values.size());
-  const double* at = cells_->gradients.data() + cells_->start[place] * cells_->dimension;
-  Vec3 sum = Vec3::Zero();
-  for (std::int64_t k = 0; k < corners; ++k) {
-    for (int e = 0; e < cells_->dimension; ++e) sum[e] += values[k] * *at++;
+  const auto corners = cells_->corners_of(place_of(cell));
+  const auto at = [&](std::size_t k) { return cells_->positions[corners[k % corners.size()]]; };
+  Vec3 twice = Vec3::Zero(), sum = Vec3::Zero();
+  for (std::size_t k = 0; k < corners.size(); ++k) {
+    const Vec3 side = at(k + 1) - at(k);
+    twice += (at(k) - at(0)).cross(side);
+    sum += (values[k] + values[(k + 1) % corners.size()]) / 2 * side;
   }
-  return sum;
+  return 2 * sum.cross(twice) / twice.squaredNorm();
 }
 
 }  // namespace geotherm::app

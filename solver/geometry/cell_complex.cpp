@@ -93,14 +93,8 @@ Result<void> check_cell(const CellComplex& cells, Index cell) {
 
 Result<void> check_cells(const CellComplex& cells) {
   if (const auto sizes = check_sizes(cells); !sizes) return sizes;
-  std::size_t stabilizers = 0;
   for (Index c = 0; c < cells.cell_count(); ++c) {
     if (const auto valid = check_cell(cells, c); !valid) return valid;
-    const std::size_t k = cells.corners_of(c).size();
-    stabilizers += k * (k + 1) / 2;
-  }
-  if (!cells.stabilizers.empty() && cells.stabilizers.size() != stabilizers) {
-    return bad_size("numbers of stabilizers", cells.stabilizers.size(), stabilizers);
   }
   for (std::size_t v = 0; v < cells.positions.size(); ++v) {
     if (!cells.positions[v].allFinite()) {

@@ -10,11 +10,9 @@
 namespace geotherm {
 namespace {
 
-/// Share of the stabilizers in the Poisson equation. u needs them whole, so that it stays positive;
-/// distances are not linear around sources, and what holds cells to linear functions makes them too
-/// short there (measured on polygons: by 7 to 11 % within a tenth of the largest, by 2 to 4 % with
-/// a tenth of the stabilizers; a hundredth makes them too long).
-constexpr double kOfPoisson = 0.1;
+/// Mass is consistent on cells up to the first width, in means of their component, and lumped from
+/// the second one on: there t is too short for the pairs of the consistent mass to leave u above 0.
+constexpr double kConsistentWidth = 1.6, kLumpedWidth = 3.2;
 
 /// Minimum rows or cells per thread.
 constexpr std::int64_t kCellGrain = 1 << 12;
@@ -108,6 +106,18 @@ class CellMeshBuilder {
     }
   }
 
+  void average_widths() {
+    const auto parts = static_cast<std::size_t>(out_.components.count);
+    out_.mean_width.assign(parts, 0.0);
+    std::vector<Index> cells(parts, 0);
+    for (Index c = 0; c < out_.cell_count(); ++c) {
+      const Index part = out_.components.of[out_.corners_of(c).front()];
+      out_.mean_width[part] += out_.widths[c];
+      ++cells[part];
+    }
+    for (std::size_t part = 0; part < parts; ++part) out_.mean_width[part] /= cells[part];
+  }
+
   void add_up_stiffness(std::span<const Index> order) {
     out_.lower = permuted_lower(pattern_.pattern, order, threads_);
     out_.pattern = pattern_hash(out_.lower, threads_);
@@ -116,21 +126,11 @@ class CellMeshBuilder {
     out_.column.assign(rows.neighbor.begin(), rows.neighbor.end());
     out_.entry.resize(rows.neighbor.size());
     if (cells_.dimension == 2) out_.shared_mass.resize(rows.neighbor.size());
-    if (!cells_.stabilizers.empty()) out_.poisson_entry.resize(rows.neighbor.size());
     out_.cells_at = CellTable(size_, out_.cell_count(), threads_,
                               [this](Index c) { return out_.corners_of(c); });
-    std::vector<std::int64_t> stabilizer;  // where each given cell's begins
-    if (!cells_.stabilizers.empty()) {
-      std::int64_t next = 0;
-      for (Index c = 0; c < cells_.cell_count(); ++c) {
-        stabilizer.push_back(next);
-        const auto k = std::ssize(cells_.corners_of(c));
-        next += k * (k + 1) / 2;
-      }
-    }
     parallel_for(threads_, size_, kCellGrain, [&](std::int64_t begin, std::int64_t end) {
       for (auto i = static_cast<Index>(begin); i < static_cast<Index>(end); ++i) {
-        add_up_row(i, out_.cells_at.at(i), stabilizer);
+        add_up_row(i, out_.cells_at.at(i));
       }
     });
   }
@@ -150,8 +150,7 @@ class CellMeshBuilder {
   }
 
   /// Sums what the cells at row i give its pairs, in their order.
-  void add_up_row(Index i, std::span<const Index> cells,
-                  const std::vector<std::int64_t>& stabilizer) {
+  void add_up_row(Index i, std::span<const Index> cells) {
     const std::int64_t first = out_.row_start[i];
     const auto columns =
         std::span(out_.column.data() + first, out_.column.data() + out_.row_start[i + 1]);
@@ -159,8 +158,6 @@ class CellMeshBuilder {
     std::fill_n(entries, columns.size(), 0.0);
     double* const shared = out_.shared_mass.empty() ? nullptr : out_.shared_mass.data() + first;
     if (shared != nullptr) std::fill_n(shared, columns.size(), 0.0);
-    double* const of_poisson = stabilizer.empty() ? nullptr : out_.poisson_entry.data() + first;
-    if (of_poisson != nullptr) std::fill_n(of_poisson, columns.size(), 0.0);
     const int d = out_.dimension;
     for (const Index c : cells) {
       const auto corners = out_.corners_of(c);
@@ -175,16 +172,10 @@ class CellMeshBuilder {
         entries[place] += product;
         if (shared != nullptr) {
           const auto count = static_cast<double>(corners.size());
-          shared[place] += out_.measures[c] / (count * (count + 1));
-        }
-        if (of_poisson != nullptr) {
-          const auto [low, high] = std::minmax(own, k);
-          const auto at = stabilizer[out_.given_cell[c]] + high * (high + 1) / 2 + low;
-          // This has the units of measure times gradients squared.
-          const double held = cells_.stabilizers[at] * unit_ * unit_ * out_.measures[c] /
-                              cells_.measures[out_.given_cell[c]];
-          entries[place] += held;
-          of_poisson[place] += product + kOfPoisson * held;
+          const double width = out_.widths[c] / out_.mean_width[out_.components.of[i]];
+          const double share =
+              std::clamp((kLumpedWidth - width) / (kLumpedWidth - kConsistentWidth), 0.0, 1.0);
+          shared[place] += share * out_.measures[c] / (count * (count + 1));
         }
       }
     }
@@ -228,8 +219,12 @@ CellPattern pattern_of_cells(const CellComplex& cells, int threads) {
   const auto add_neighbors = [&](Index i, std::vector<Index>& row) {
     const Index vertex = out.vertices[i];
     const auto begin = static_cast<std::ptrdiff_t>(row.size());
+    std::span<const Index> before;
     for (const Index c : at.at(vertex)) {
-      for (const Index v : cells.corners_of(c)) {
+      const auto corners = cells.corners_of(c);
+      if (std::ranges::equal(corners, before)) continue;  // as the triangles of a polygon are
+      before = corners;
+      for (const Index v : corners) {
         if (v != vertex) row.push_back(out.local[v]);
       }
     }
@@ -251,6 +246,7 @@ std::shared_ptr<const CellMesh> build_cell_mesh(const CellComplex& cells,
   builder.sort_cells();
   builder.add_up_masses();
   name_components(pattern.parts, order, out->components);
+  builder.average_widths();
   builder.add_up_stiffness(order);
   return out;
 }

@@ -63,17 +63,13 @@ struct CellMatrix {
   /// L, all entries of each row but the diagonal's, which is minus their sum.
   std::vector<std::int64_t> row_start;  ///< n + 1
   RawVector<Index> column;
-  RawVector<double> entry;          ///< of the heat step
-  RawVector<double> poisson_entry;  ///< with less of the stabilizers; empty: the same
+  RawVector<double> entry;
   /// The consistent mass of each pair: measure / (k (k + 1)) from each cell of k corners that has
-  /// both, as simplices have it; empty where all mass is lumped.
+  /// both, as simplices have it, less on cells much wider than others; empty where all mass is
+  /// lumped.
   RawVector<double> shared_mass;
 
   Index size() const { return static_cast<Index>(mass.size()); }
-  /// The entries of the heat step where there is a mass factor, else those of the Poisson step.
-  const double* entries(double mass_factor) const {
-    return (mass_factor == 0 && !poisson_entry.empty() ? poisson_entry : entry).data();
-  }
 };
 
 /// y = L x. The same bits with any number of threads.
@@ -94,6 +90,7 @@ struct CellMesh : CellMatrix {
   RawVector<double> gradients;      ///< D to a corner
   RawVector<double> measures;       ///< C
   RawVector<double> widths;         ///< C
+  std::vector<double> mean_width;   ///< of each component's cells
   RawVector<Index> given_cell;      ///< C: number in the CellComplex
   std::vector<CellRange> ranges;    ///< all rows, in order; the same for every thread count
   Index crossing = 0;               ///< cells from here on have corners in several ranges
@@ -144,7 +141,7 @@ class CellOperator final : public DomainOperator {
   /// squared difference.
   double weight(Index row, std::int64_t entry) const {
     const Index component = mesh_->components.of[row];
-    const double stiffness = stiffness_factor_.of(component) * entries_[entry];
+    const double stiffness = stiffness_factor_.of(component) * mesh_->entry[entry];
     if (!shares_mass_) return -stiffness;
     return -stiffness - mass_factor_ * consistent_share_.of(component) * mesh_->shared_mass[entry];
   }
@@ -152,7 +149,6 @@ class CellOperator final : public DomainOperator {
   std::shared_ptr<const CellMatrix> mesh_;
   double mass_factor_;
   PerComponent stiffness_factor_, consistent_share_;
-  const double* entries_;  ///< of L
   bool shares_mass_;
   int threads_;
   std::vector<double> diagonal_;

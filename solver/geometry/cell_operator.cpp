@@ -15,7 +15,7 @@ constexpr std::int64_t kCellRowGrain = 1 << 12;
 
 void apply_stiffness(const CellMatrix& matrix, std::span<const double> x, std::span<double> y,
                      int threads) {
-  const double* const entries = matrix.entries(0);
+  const double* const entries = matrix.entry.data();
   parallel_for(threads, matrix.size(), kCellRowGrain, [&](std::int64_t begin, std::int64_t end) {
     for (auto i = static_cast<Index>(begin); i < static_cast<Index>(end); ++i) {
       double sum = 0;
@@ -35,7 +35,6 @@ CellOperator::CellOperator(std::shared_ptr<const CellMatrix> mesh, double mass_f
       mass_factor_(mass_factor),
       stiffness_factor_(std::move(stiffness_factor)),
       consistent_share_(std::move(consistent_share)),
-      entries_(mesh_->entries(mass_factor)),
       shares_mass_(mass_factor != 0 && !mesh_->shared_mass.empty()),
       threads_(threads) {
   diagonal_.resize(static_cast<std::size_t>(size()));

@@ -1,10 +1,15 @@
 // SPDX-License-Identifier: MIT
 #include <Eigen/Core>
 #include <Eigen/Geometry>
+#include <Eigen/QR>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <new>
+#include <span>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "geotherm/domains.h"
 #include "solver/core/text.h"
@@ -12,57 +17,101 @@
 namespace geotherm {
 namespace {
 
-/// On squares this makes the Laplacian of five points. With 1, which de Goes, Butts, Desbrun take,
-/// diagonals of squares get positive entries, u falls below 0, and distances do not converge
-/// (measured: 3.7 % on 64 x 64 squares in place of 1.6 %).
-constexpr double kLambda = 0.5;
+/// A face of k corners has 2 k^2 numbers, and takes k^3 steps.
+constexpr std::size_t kMaxCorners = 256;
 
-/// The matrix of a face has the square of this many numbers.
-constexpr std::size_t kMaxCorners = 1000;
+/// What u is linear over, in mean distances of two corners of a face. Chosen on planes, a sphere
+/// and a torus of faces that are convex or an L (docs/domains.md).
+constexpr double kWidth = 1.2;
 
-/// What a face gives its corners, in a frame of the plane of its vector area.
-struct PolygonElement {
+/// Height of a triangle at the virtual vertex, in its side, at least: in a concave face that vertex
+/// may lie beside the line of a side, and would have the value that the side is extrapolated to.
+constexpr double kLeastHeight = 0.1;
+
+/// The triangle between a side and the virtual vertex of its face.
+struct FanTriangle {
   double area = 0;
-  double width = 0;            ///< mean distance between two corners
-  Eigen::MatrixXd gradient;    ///< 2 x k
-  Eigen::MatrixXd stabilizer;  ///< k x k
+  /// Of the hat functions of the side's ends and of the virtual vertex, in the triangle's frame.
+  Eigen::Vector2d from, to, apex;
 };
 
-/// Area 0: the face has none. Preconditions: three corners or more, in range.
+/// `least_height`: in sides. Area 0: the side has no length.
+FanTriangle fan_triangle(const Vec3& from, const Vec3& to, const Vec3& apex, double least_height) {
+  FanTriangle out;
+  const double length = (to - from).norm();
+  if (!(length > 0)) return out;
+  const Vec3 side = (to - from) / length;
+  const double along = side.dot(apex - from);
+  const double height = std::max((apex - from - along * side).norm(), least_height * length);
+  out.area = length * height / 2;
+  out.from = {-1 / length, (along / length - 1) / height};
+  out.to = {1 / length, -along / (length * height)};
+  out.apex = {0, 1 / height};
+  return out;
+}
+
+/// The point with the least sum of the squared areas of its triangles with the sides.
+Vec3 virtual_vertex(std::span<const Vec3> corners) {
+  Eigen::Matrix3d square = Eigen::Matrix3d::Zero();
+  Vec3 right = Vec3::Zero();
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    const Vec3 side = corners[(i + 1) % corners.size()] - corners[i];
+    const Eigen::Matrix3d across =
+        side.squaredNorm() * Eigen::Matrix3d::Identity() - side * side.transpose();
+    square += across;
+    right += across * corners[i];
+  }
+  return square.completeOrthogonalDecomposition().solve(right);
+}
+
+/// What a face gives its corners: a cell for each triangle at its virtual vertex, whose value is
+/// the harmonic mean of the corners' by these triangles.
+struct PolygonElement {
+  double width = 0;                         ///< mean distance between two corners
+  std::vector<double> areas;                ///< of each triangle; none: the face has no area
+  std::vector<Eigen::Matrix2Xd> gradients;  ///< of each triangle: 2 x k
+};
+
+/// Preconditions: three corners or more, in range.
 PolygonElement polygon_element(const std::vector<Vec3>& positions, std::span<const Index> face) {
-  const auto k = static_cast<Eigen::Index>(face.size());
+  const std::size_t k = face.size();
   PolygonElement out;
-  const auto at = [&](Eigen::Index i) -> const Vec3& {
-    return positions[face[static_cast<std::size_t>((i + k) % k)]];
-  };
-  const Vec3 first = at(0);
-  Vec3 twice = Vec3::Zero();
-  for (Eigen::Index i = 0; i < k; ++i) {
-    twice += (at(i) - first).cross(at(i + 1) - first);
-    for (Eigen::Index j = 0; j < i; ++j) out.width += (at(i) - at(j)).norm();
+  std::vector<Vec3> at;  // in mean distances between two corners
+  for (std::size_t i = 0; i < k; ++i) {
+    at.push_back(positions[face[i]] - positions[face[0]]);
+    for (std::size_t j = 0; j < i; ++j) out.width += (at[i] - at[j]).norm();
   }
   out.width /= static_cast<double>(k * (k - 1)) / 2;
-  const double area = twice.norm() / 2;
+  Vec3 twice = Vec3::Zero();
+  for (Vec3& corner : at) corner /= out.width;
+  for (std::size_t i = 0; i < k; ++i) twice += at[i].cross(at[(i + 1) % k]);
   // Flatter than this, rounding decides where the plane lies.
   constexpr double kFlat = 1e-12;
-  if (!(area > kFlat * out.width * out.width)) return out;
-  out.area = area;
-  const Vec3 normal = twice / (2 * area);
-  const Vec3 u = normal.unitOrthogonal(), v = normal.cross(u);
-  out.gradient.resize(2, k);
-  for (Eigen::Index i = 0; i < k; ++i) {
-    const Vec3 g = (at(i + 1) - at(i - 1)).cross(normal) / (2 * area);
-    out.gradient.col(i) << g.dot(u), g.dot(v);
+  if (!(twice.norm() / 2 > kFlat)) return out;
+  // A triangle is one cell: its third corner in place of a virtual vertex.
+  const bool whole = k == 3;
+  const Vec3 apex = whole ? at[2] : virtual_vertex(at);
+  std::vector<FanTriangle> fan;
+  Eigen::VectorXd pull = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(k));
+  for (std::size_t i = 0; i < (whole ? 1 : k); ++i) {
+    const auto next = static_cast<Eigen::Index>((i + 1) % k);
+    const FanTriangle& t =
+        fan.emplace_back(fan_triangle(at[i], at[next], apex, whole ? 0 : kLeastHeight));
+    if (!(t.area > 0)) continue;
+    pull[static_cast<Eigen::Index>(i)] -= t.area * t.apex.dot(t.from);
+    pull[next] -= t.area * t.apex.dot(t.to);
   }
-  // What of the differences along the sides the gradient does not explain.
-  Eigen::MatrixXd rest(k, k);
-  for (Eigen::Index i = 0; i < k; ++i) {
-    const Vec3 side = at(i + 1) - at(i);
-    rest.row(i) = -(side.dot(u) * out.gradient.row(0) + side.dot(v) * out.gradient.row(1));
-    rest(i, i) -= 1;
-    rest(i, (i + 1) % k) += 1;
+  const Eigen::VectorXd weights =
+      whole ? Eigen::VectorXd(Eigen::Vector3d::UnitZ()) : Eigen::VectorXd(pull / pull.sum());
+  for (std::size_t i = 0; i < fan.size(); ++i) {
+    const FanTriangle& t = fan[i];
+    if (!(t.area > 0)) continue;
+    Eigen::Matrix2Xd gradient = t.apex * weights.transpose();
+    gradient.col(static_cast<Eigen::Index>(i)) += t.from;
+    gradient.col(static_cast<Eigen::Index>((i + 1) % k)) += t.to;
+    out.gradients.emplace_back(gradient / out.width);
+    out.areas.push_back(t.area * out.width * out.width);
   }
-  out.stabilizer = kLambda * rest.transpose() * rest;
   return out;
 }
 
@@ -70,19 +119,10 @@ Error bad_polygon(std::size_t face, const std::string& what) {
   return {ErrorCode::kBadInput, "face " + std::to_string(face) + " " + what};
 }
 
-/// Flags the ends of edges that lie in one face alone.
-std::vector<char> polygon_boundary(const CellComplex& cells) {
-  std::vector<std::array<Index, 2>> edges;
-  edges.reserve(cells.corners.size());
-  for (Index c = 0; c < cells.cell_count(); ++c) {
-    const auto corners = cells.corners_of(c);
-    for (std::size_t k = 0; k < corners.size(); ++k) {
-      const auto [low, high] = std::minmax(corners[k], corners[(k + 1) % corners.size()]);
-      edges.push_back({low, high});
-    }
-  }
+/// Flags the ends of edges that occur once.
+std::vector<char> ends_of_single_edges(std::vector<std::array<Index, 2>> edges, Index vertices) {
   std::ranges::sort(edges);
-  std::vector<char> out(static_cast<std::size_t>(cells.vertices), 0);
+  std::vector<char> out(static_cast<std::size_t>(vertices), 0);
   for (auto at = edges.begin(); at != edges.end();) {
     const auto next = std::find_if(at, edges.end(), [at](const auto& e) { return e != *at; });
     if (next - at == 1) out[(*at)[0]] = out[(*at)[1]] = 1;
@@ -107,6 +147,7 @@ Result<CellComplex> cells_of(const PolygonMesh& mesh) try {
                  "vertex " + std::to_string(v) + " has a coordinate that is not finite"};
   }
   std::size_t left_out = 0;
+  std::vector<std::array<Index, 2>> edges;
   for (std::size_t f = 0; f + 1 < mesh.start.size(); ++f) {
     const std::int64_t begin = mesh.start[f], end = mesh.start[f + 1];
     if (begin < 0 || end < begin || end > std::ssize(mesh.corners)) {
@@ -131,20 +172,23 @@ Result<CellComplex> cells_of(const PolygonMesh& mesh) try {
     const bool simple = face.size() >= 3 && std::ranges::adjacent_find(sorted) == sorted.end();
     const PolygonElement element =
         simple ? polygon_element(mesh.positions, face) : PolygonElement{};
-    if (!(element.area > 0)) {
+    if (element.areas.empty()) {
       ++left_out;
       continue;
     }
-    cells.corners.insert(cells.corners.end(), face.begin(), face.end());
-    cells.start.push_back(std::ssize(cells.corners));
-    for (Eigen::Index k = 0; k < element.gradient.cols(); ++k) {
-      cells.gradients.insert(cells.gradients.end(),
-                             {element.gradient(0, k), element.gradient(1, k)});
-      for (Eigen::Index j = 0; j <= k; ++j) cells.stabilizers.push_back(element.stabilizer(k, j));
+    for (std::size_t k = 0; k < face.size(); ++k) {
+      const auto [low, high] = std::minmax(face[k], face[(k + 1) % face.size()]);
+      edges.push_back({low, high});
     }
-    cells.measures.push_back(element.area);
-    cells.numbers.push_back(static_cast<Index>(f));
-    cells.widths.push_back(element.width);
+    for (std::size_t t = 0; t < element.areas.size(); ++t) {
+      cells.corners.insert(cells.corners.end(), face.begin(), face.end());
+      cells.start.push_back(std::ssize(cells.corners));
+      const auto gradients = element.gradients[t].reshaped();
+      cells.gradients.insert(cells.gradients.end(), gradients.begin(), gradients.end());
+      cells.measures.push_back(element.areas[t]);
+      cells.numbers.push_back(static_cast<Index>(f));
+      cells.widths.push_back(kWidth * element.width);
+    }
   }
   if (cells.measures.empty()) {
     return Error{ErrorCode::kBadInput, "the mesh has no face with an area"};
@@ -153,7 +197,7 @@ Result<CellComplex> cells_of(const PolygonMesh& mesh) try {
     cells.notes.push_back({counted_text(left_out, "face was", "faces were") +
                            " left out: no area, or a corner twice"});
   }
-  cells.on_boundary = polygon_boundary(cells);
+  cells.on_boundary = ends_of_single_edges(std::move(edges), cells.vertices);
   return cells;
 } catch (const std::bad_alloc&) {
   return Error{ErrorCode::kOutOfMemory, "the memory ended while cells were made of polygons"};

@@ -2,9 +2,11 @@
 #include "solver/heat/cell_domain.h"
 
 #include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <numeric>
 
 #include "solver/accuracy/distance_bounds.h"
@@ -23,15 +25,55 @@ constexpr double kCellsAnalyzedFrom = 0.3, kCellsAnalyzedTo = 0.7;
 /// Sizes of the components; the mean edge of one is the mean of its cells' widths.
 std::vector<ComponentSize> measure_cells(const CellMesh& mesh) {
   std::vector<ComponentSize> sizes(static_cast<std::size_t>(mesh.components.count));
-  for (ComponentSize& size : sizes) size.mean_edge = 0;
   for (Index c = 0; c < mesh.cell_count(); ++c) {
     ComponentSize& size = sizes[mesh.components.of[mesh.corners_of(c).front()]];
     ++size.cells;
-    size.mean_edge += mesh.widths[c];
     size.area += mesh.widths[c] * mesh.widths[c];
   }
-  for (ComponentSize& size : sizes) size.mean_edge /= size.cells;
+  for (std::size_t c = 0; c < sizes.size(); ++c) sizes[c].mean_edge = mesh.mean_width[c];
   return sizes;
+}
+
+/// Up to this thickness in mean widths t is the square of the mean width.
+constexpr double kThickness = 7.5;
+/// Below this share of the cube root of the volume a thickness is that of a long or thin body.
+constexpr double kLong = 0.45;
+
+/// X scatters by the same angles whatever the number of tets, which makes distances too short by a
+/// share like h^2 / t; what the border and corners make too long falls like sqrt(t) over the
+/// thickness. Both fall with h where t / h^2 follows the thickness in widths to the power of 2/3.
+/// The thickness is 3 volumes over the border's area, the radius of a ball, and less in long
+/// bodies, whose ways bend more often (docs/domains.md). A vertex's gradients, added up over its
+/// tets, leave a third of the border's area around it.
+void follow_thickness(CellDomain& domain) {
+  const CellMesh& mesh = *domain.mesh;
+  std::vector<Vec3> normals(static_cast<std::size_t>(mesh.size()), Vec3::Zero());
+  std::vector<double> volume(domain.components.size(), 0.0), area(volume);
+  for (Index c = 0; c < mesh.cell_count(); ++c) {
+    const auto corners = mesh.corners_of(c);
+    const auto place = [&](std::size_t k) -> const Vec3& {
+      return domain.given->positions[domain.vertex_of_row[corners[k % 4]]];
+    };
+    for (std::size_t k = 0; k < 4; ++k) {
+      const Vec3 edge = place(k) - place(k + 1);
+      const Vec3 normal = (place(k + 2) - place(k + 1)).cross(place(k + 3) - place(k + 1)) / 6;
+      const double towards = normal.dot(edge);
+      normals[corners[k]] += towards < 0 ? Vec3(-normal) : normal;
+      volume[mesh.components.of[corners[k]]] += std::abs(towards) / 4;
+    }
+  }
+  for (Index row = 0; row < mesh.size(); ++row) {
+    area[mesh.components.of[row]] += normals[row].norm();
+  }
+  for (std::size_t c = 0; c < volume.size(); ++c) {
+    ComponentSize& size = domain.components[c];
+    const double side = std::cbrt(volume[c]);
+    const double of_ball = std::cbrt(36 * std::numbers::pi) * side * side;
+    double thickness = 3 * volume[c] / std::max(area[c], of_ball);
+    thickness *= std::min(1.0, thickness / (kLong * side));
+    const double in_widths = thickness / domain.unit / size.mean_edge;
+    size.grading = std::max(1.0, std::pow(in_widths / kThickness, 2.0 / 3));
+  }
 }
 
 class CellInput final : public Domain::Input {
@@ -80,6 +122,9 @@ class CellInput final : public Domain::Input {
     out->mesh = build_cell_mesh(*cells_, pattern, order, out->unit, threads);
     number_rows(pattern, order, *out);
     out->components = measure_cells(*out->mesh);
+    if (out->mesh->is_of_tets && !cells_->positions.empty() && cells_->lengths_are_straight) {
+      follow_thickness(*out);
+    }
     out->timing.operators += watch.lap();
     return std::shared_ptr<const Domain>(std::move(out));
   }
@@ -139,12 +184,6 @@ Result<void> check_cell_sources(const CellDomain& domain, const SourceSet& sourc
   return refuse_offsets(sources);
 }
 
-double between(const double* a, const double* b, std::size_t dimension) {
-  double square = 0;
-  for (std::size_t e = 0; e < dimension; ++e) square += (a[e] - b[e]) * (a[e] - b[e]);
-  return std::sqrt(square);
-}
-
 /// Turns sources into anchors.
 class CellPlacer {
  public:
@@ -155,16 +194,14 @@ class CellPlacer {
   void add_point(const CellPoint& point) {
     const Index cell = domain_.cell_of_given[domain_.find_cell(point.cell)];
     const auto corners = mesh_.corners_of(cell);
-    const auto d = static_cast<std::size_t>(mesh_.dimension);
-    const std::vector<double> places = domain_.corner_places(cell);
-    std::vector<double> at(d, 0.0);
+    const std::vector<Vec3> places = domain_.corner_places(cell);
+    Vec3 at = Vec3::Zero();
     for (std::size_t k = 0; k < corners.size(); ++k) {
       if (point.weights[k] == 1) return add_vertex(domain_.vertex_of_row[corners[k]]);
-      for (std::size_t e = 0; e < d; ++e) at[e] += point.weights[k] * places[k * d + e];
+      at += point.weights[k] * places[k];
     }
     for (std::size_t k = 0; k < corners.size(); ++k) {
-      anchors_.add_corner(corners[k], between(places.data() + k * d, at.data(), d),
-                          point.weights[k]);
+      anchors_.add_corner(corners[k], (places[k] - at).norm(), point.weights[k]);
     }
   }
 
@@ -203,16 +240,25 @@ Index CellDomain::find_cell(Index number) const {
   return at != numbers.end() && *at == number ? static_cast<Index>(at - numbers.begin()) : kNoIndex;
 }
 
-std::vector<double> CellDomain::corner_places(Index cell) const {
+std::vector<Vec3> CellDomain::corner_places(Index cell) const {
+  const auto corners = mesh->corners_of(cell);
+  std::vector<Vec3> out(corners.size(), Vec3::Zero());
+  if (!given->positions.empty() && given->lengths_are_straight) {
+    const Vec3 first = given->positions[vertex_of_row[corners.front()]];
+    for (std::size_t k = 0; k < out.size(); ++k) {
+      out[k] = (given->positions[vertex_of_row[corners[k]]] - first) / unit;
+    }
+    return out;
+  }
   const int d = mesh->dimension;
-  const auto corners = static_cast<int>(mesh->corners_of(cell).size());
   using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-  const Eigen::Map<const Rows> gradients(mesh->gradients_of(cell), corners, d);
-  std::vector<double> out(static_cast<std::size_t>(corners * d));
-  Eigen::Map<Rows> places(out.data(), corners, d);
+  const Eigen::Map<const Rows> gradients(mesh->gradients_of(cell), std::ssize(corners), d);
   const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 3, 3> square =
       gradients.transpose() * gradients;
-  places = gradients * square.completeOrthogonalDecomposition().pseudoInverse();
+  const Rows places = gradients * square.completeOrthogonalDecomposition().pseudoInverse();
+  for (std::size_t k = 0; k < out.size(); ++k) {
+    out[k].head(d) = places.row(static_cast<Eigen::Index>(k));
+  }
   return out;
 }
 

@@ -34,9 +34,10 @@ struct CellDomain final : Domain {
   void check_straight_lines(const SourceSet& sources, int threads,
                             DistanceResult& result) const override;
 
-  /// The corners of a cell in the frame of its gradients, D numbers each, up to a shift: where the
-  /// linear functions are that have these gradients (the pseudo-inverse of G).
-  std::vector<double> corner_places(Index cell) const;
+  /// Where the corners of a cell lie, up to a shift: their positions, in units of the domain, or
+  /// without such where the linear functions are that have the cell's gradients, in its frame (the
+  /// pseudo-inverse of G).
+  std::vector<Vec3> corner_places(Index cell) const;
 };
 
 /// A cell beside a source, with the distances of its corners, in units of the domain.

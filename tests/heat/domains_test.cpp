@@ -158,6 +158,29 @@ TEST(Domains, InABoxOfTetsErrorsFallWithTheEdgesSlow) {
   EXPECT_LE(before, 0.02);  // users accept that much of 80,000 tets
 }
 
+/// The same box as tets with the widths of tets, stretched along x.
+TetMesh stretched_box(Index n, double stretch) {
+  CellComplex cells = box_of_tets(n);
+  std::vector<Tet> tets(cells.corners.size() / 4);
+  for (std::size_t c = 0; c < cells.corners.size(); ++c) tets[c / 4][c % 4] = cells.corners[c];
+  for (Vec3& at : cells.positions) at[0] *= stretch;
+  return *TetMesh::build(std::move(cells.positions), std::move(tets));
+}
+
+TEST(Domains, DiffusionTimesOfTetsFollowTheThicknessInWidths) {
+  // Edges and corners of the border count as less area than they have.
+  constexpr double kOfBorder = 0.04;
+  for (const Index n : {18, 22}) {
+    const auto cube = HeatMethod::build(shared(cells_of(stretched_box(n, 1))));
+    ASSERT_TRUE(cube);
+    const double width = std::sqrt(cube->t() / cube->relative_t());
+    const double expected = std::pow(0.5 / width / 7.5, 2.0 / 3);
+    EXPECT_NEAR(cube->grading(), expected, kOfBorder * expected) << n;
+  }
+  const auto rod = HeatMethod::build(shared(cells_of(stretched_box(12, 8))));
+  EXPECT_EQ(rod->grading(), 1) << "few tets across";
+}
+
 /// Two arms of 3 x 1 x 1 that share a cube at the origin, cut into n x n x n cubes of tets a unit.
 TetMesh elbow_of_tets(Index n) {
   const auto is_inside = [n](Index i, Index j) { return i < n || j < n; };

@@ -35,12 +35,10 @@ struct CellComplex {
   std::vector<double> measures;     ///< C: lengths, areas or volumes, > 0
   std::vector<double> widths;       ///< C: lengths that u is linear over, > 0, such as the longest
                                     ///< edges; t follows their mean
-  /// What is added to a cell's G' G times measure, to hold what its gradient does not see: for each
-  /// cell the lower triangle of a k x k matrix by rows, positive semidefinite, rows summing to 0.
-  /// The heat step takes it whole, the Poisson equation a tenth. Empty: nothing.
-  std::vector<double> stabilizers;
-  std::vector<char> on_boundary;  ///< V: what the boundary rules hold; empty: none
-  std::vector<Index> numbers;     ///< C, ascending: what sources call each cell; empty: 0 to C - 1
+  std::vector<char> on_boundary;    ///< V: what the boundary rules hold; empty: none
+  /// C, ascending: what sources call each cell; empty: 0 to C - 1. Cells with the same corners, in
+  /// one order, may share a number, as the triangles of a polygon do.
+  std::vector<Index> numbers;
   /// V, model units; empty where the vertices lie nowhere. Elimination orders are better with them.
   std::vector<Vec3> positions;
   /// No way is shorter than the straight line between `positions`: queries count what is below.
@@ -77,12 +75,13 @@ struct Graph {
 /// no edge, an end out of range, both ends the same, a length that is not above 0. Cost: one pass.
 Result<CellComplex> cells_of(const Graph& graph);
 
-/// A polygon mesh as a space of two dimensions: the gradient of a face is that of its boundary
-/// values in the plane of its vector area, and what that does not see is held by the stabilizer of
-/// de Goes, Butts, Desbrun 2020 (lambda = 1/2). Left out are faces without area, with fewer than
-/// three corners or with one twice; sources keep the numbers of the mesh. Errors (kBadInput, with
-/// the number): a corner out of range, a coordinate that is not finite, a face with more than 1,000
-/// corners, no face that can be used. Cost: one pass, k^2 numbers for a face of k corners.
+/// A polygon mesh as a space of two dimensions: a face of k corners is the k triangles between its
+/// sides and a virtual vertex (Bunge, Herholz, Kazhdan, Botsch 2020), whose value is a mean of the
+/// corners': the one that is harmonic. Each triangle is a cell, with all corners of the face and
+/// its number in the mesh; a face of three corners is one. Left out are faces without area, with
+/// fewer than three corners or with one twice. Errors (kBadInput, with the number): a corner out of
+/// range, a coordinate that is not finite, a face with more than 256 corners, no face that can be
+/// used. Cost: one pass, 2 k^2 numbers and k^3 steps for a face of k corners.
 Result<CellComplex> cells_of(const PolygonMesh& mesh);
 
 /// Samples in a box, such as the pixels of an image or the voxels of a scan. Its vertices are the
