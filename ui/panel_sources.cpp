@@ -147,15 +147,17 @@ void draw_typed(Frame& frame) {
   if (!form.error.empty()) draw_note(form.error, frame.colours().error);
 }
 
-/// What the centre of the sources is, and where.
+/// What the centre of the sources is, and where: of several points.
 void draw_centre(Frame& frame) {
   const auto& kind = frame.state().centre;
+  const SourceSet& set = frame.explored().set;
+  const bool possible = set.points.size() > 1 && set.edges.empty() && set.segments.empty();
+  if (!possible && !kind) return;
   draw_label(frame, "centre",
              "Of the sources: where the sum of squared distances is least (mean), or that of the "
              "distances (median), and the shortest paths from there.");
-  const bool possible = frame.model() != nullptr;
   const int clicked =
-      draw_segments(frame, {{"centre none", "none", !kind, possible},
+      draw_segments(frame, {{"centre none", "none", !kind, true},
                             {"centre mean", "mean", kind == CentreKind::kMean, possible},
                             {"centre median", "median", kind == CentreKind::kMedian, possible}});
   if (clicked == 0) frame.send(app::command::ShowCentre{});

@@ -81,6 +81,7 @@ struct Session::State {
   ExploreRequest wanted() const;
   bool only_checks() const;
   void refresh();
+  bool leave_out_centre(const ExploreRequest& request);
   void start(const ExploreRequest& request);
   bool take();
   void say_failure(const Error& error);

@@ -86,12 +86,24 @@ bool Session::State::only_checks() const {
 void Session::State::refresh() {
   if (state.model.empty()) return;
   const ExploreRequest request = wanted();
-  if (requested && requested->covers(request)) {
+  if (requested && requested->covers(request) && leave_out_centre(request)) {
     // What is shown belongs to the state: a model that did not open is a matter of the log.
     if (answered && answered->covers(request) && !explored.b_failure) failure.clear();
     return;
   }
   start(request);
+}
+
+/// Shows no centre where none is asked for. False where one is still looked for.
+bool Session::State::leave_out_centre(const ExploreRequest& request) {
+  if (request.centre || !requested->centre) return true;
+  if (!answered || !answered->covers(*requested)) return false;
+  requested->centre.reset();
+  answered->centre.reset();
+  explored.centre.reset();
+  explored.centre_failure.reset();
+  ++explored.version;
+  return true;
 }
 
 void Session::State::start(const ExploreRequest& request) {

@@ -41,7 +41,7 @@ add_module_names = False
 # Names of other projects, of the library's inside, and words of annotations that have no page.
 nitpick_ignore_regex = [
     (r"cpp:.*", r"(std|Eigen)(::.*)?|.*_t|Vec3::(Zero|Unit[XYZ])|[TE]|Enum|Named"),
-    (r"cpp:.*", r"EliminationTree|NodeOrder|BufferPool|(Wave|Path|Intrinsic)Surface|State|io::InputFile"),
+    (r"cpp:.*", r"EliminationTree|EarlierRows|NodeOrder|BufferPool|(Wave|Path|Intrinsic)Surface|State|io::InputFile"),
     (r"c:.*", r"u?int\d+_t"),
     (r"py:.*", r"(np|npt|numpy|os|collections|ctypes|typing)\..*|.*AnyArray|Progress|optional"),
 ]

@@ -37,11 +37,6 @@ bool is_news(const WideNumber& now, const WideNumber& before) {
   return !(std::abs(a - b) <= kNews * std::max(std::abs(a), std::abs(b)));
 }
 
-bool is_above(const WideNumber& a, const WideNumber& b) {
-  if (a.mantissa == 0 || b.mantissa == 0) return a.mantissa != 0;
-  return std::pair(a.exponent, std::abs(a.mantissa)) > std::pair(b.exponent, std::abs(b.mantissa));
-}
-
 /// What a source gives: one unit of heat, in squares of the mean edge of all.
 double heat_of_source(const SharedTask& task, const MeshBlock& block) {
   const double ratio = task.components.mean_edge / block.surface->unit;
@@ -61,8 +56,7 @@ std::vector<Index> source_rows(const SharedTask& task, const MeshBlock& block) {
 class Listener {
  public:
   Listener(const SharedTask& task, const MeshBlock& block)
-      : task_(task), block_(block), heard_(block.edge.size()), near_(block.edge.size()) {
-    find_inner();
+      : task_(task), block_(block), heard_(block.edge.size()) {
     for (const Index row : source_rows(task, block)) {
       if (!block.heat->matrix().is_held(row)) sources_.push_back(row);
     }
@@ -71,11 +65,7 @@ class Listener {
 
   void listen(const std::vector<WideNumber>& u) {
     for (std::size_t k = 0; k < heard_.size() && !has_news_; ++k) {
-      // What lies below the block's own heat beside it flows out: on its way to own vertices it
-      // would fall as heat has fallen from these to here.
-      const WideNumber& now = u[block_.part_vertex(block_.edge[k])];
-      has_news_ =
-          is_news(now, heard_[k]) && (is_above(now, near_[k]) || is_above(heard_[k], near_[k]));
+      has_news_ = is_news(u[block_.part_vertex(block_.edge[k])], heard_[k]);
     }
   }
   bool has_news() const { return has_news_; }
@@ -94,7 +84,6 @@ class Listener {
       if (heard_[k].mantissa != 0) bands[(top - heard_[k].exponent) / kBand].push_back(k);
     }
     for (Index here = 0; here < block_.own(); ++here) u[block_.vertex[here]] = {};
-    near_.assign(near_.size(), {});
     while (!bands.empty()) {
       const auto count = static_cast<Eigen::Index>(std::min(bands.size(), kColumns));
       Block b = Block::Zero(block_.surface->size(), count);
@@ -118,21 +107,6 @@ class Listener {
   }
 
  private:
-  /// A free row beside each of those at the edge.
-  void find_inner() {
-    const std::size_t rows = static_cast<std::size_t>(block_.surface->size());
-    std::vector<char> is_held(rows, 0);
-    for (const Index row : block_.held) is_held[row] = 1;
-    std::vector<Index> beside(rows, kNoIndex);
-    for (const Face& face : block_.surface->operators->faces) {
-      for (const Index row : face) {
-        if (is_held[row]) continue;
-        for (const Index other : face) beside[other] = row;
-      }
-    }
-    for (const Index row : block_.edge) inner_.push_back(beside[row]);
-  }
-
   Result<void> add_answers(Block b, const std::vector<std::int32_t>& base,
                            std::vector<WideNumber>& u) {
     const Components& parts = block_.surface->operators->components;
@@ -152,7 +126,10 @@ class Listener {
     if (!field) return field.error();
     const WideNumber step(field->step, 0);
     const Eigen::Index columns = field->u.cols();
-    const auto add = [&](Index row, WideNumber& sum) {
+    for (Index here = 0; here < block_.own(); ++here) {
+      const Index row = block_.row(here);
+      if (row == kNoIndex) continue;
+      WideNumber& sum = u[block_.vertex[here]];
       for (Eigen::Index c = 0; c < columns; ++c) {
         const double value = field->u(row, c);
         if (std::abs(value) < kDirectFloor) continue;
@@ -164,19 +141,13 @@ class Listener {
         }
         sum = sum.plus(wide);
       }
-    };
-    for (Index here = 0; here < block_.own(); ++here) {
-      if (block_.row(here) != kNoIndex) add(block_.row(here), u[block_.vertex[here]]);
     }
-    for (std::size_t k = 0; k < near_.size(); ++k) add(inner_[k], near_[k]);
     return {};
   }
 
   const SharedTask& task_;
   const MeshBlock& block_;
   std::vector<WideNumber> heard_;  ///< at the edge, when it was solved last
-  std::vector<Index> inner_;       ///< rows beside those, which are solved for
-  std::vector<WideNumber> near_;   ///< there, as it was solved last
   std::vector<Index> sources_;     ///< rows
   bool has_news_ = false;
 };

@@ -123,7 +123,7 @@ INSTANTIATE_TEST_SUITE_P(
 
 TEST(Command, EveryKindHasATextCase) {
   // The list above must grow with the variant.
-  EXPECT_EQ(std::variant_size_v<Command>, 45U);
+  EXPECT_EQ(std::variant_size_v<Command>, 46U);
 }
 
 class SettingText : public testing::TestWithParam<std::string> {};

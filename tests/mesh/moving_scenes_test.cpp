@@ -50,7 +50,7 @@ class Arrays {
 };
 
 constexpr const char* kBox = R"(,"min":[0,0,0],"max":[1,1,0])";
-const std::vector<float> kTriangle = {0, 0, 0, 1, 0, 0, 0, 1, 0};
+const std::vector<float> kOneTriangle = {0, 0, 0, 1, 0, 0, 0, 1, 0};
 /// Of a quarter turn about z, and of none.
 const std::vector<float> kTurn = {
     0, 0, 0, 1, 0, 0, std::numbers::sqrt2_v<float> / 2, std::numbers::sqrt2_v<float> / 2};
@@ -58,7 +58,7 @@ const std::vector<float> kTurn = {
 /// A triangle whose node turns and moves in one second while its morph target comes up.
 std::string moving_node() {
   Arrays arrays;
-  const int corners = arrays.add(kTriangle, "VEC3", 3, kBox);
+  const int corners = arrays.add(kOneTriangle, "VEC3", 3, kBox);
   const int target = arrays.add({0, 0, 0, 0, 0, 1, 0, 0, 0}, "VEC3", 3);
   const int times = arrays.add({0, 1}, "SCALAR", 1, R"(,"min":[0],"max":[1])");
   const int moves = arrays.add({0, 0, 0, 2, 0, 0}, "VEC3", 3);
@@ -83,7 +83,7 @@ std::string moving_node() {
 /// turning one alone at vertex 2.
 std::string skinned() {
   Arrays arrays;
-  const int corners = arrays.add(kTriangle, "VEC3", 3, kBox);
+  const int corners = arrays.add(kOneTriangle, "VEC3", 3, kBox);
   const int joints = arrays.add_bytes(std::string("\1\0\0\0\0\1\0\0\0\0\0\0", 12), 5121, "VEC4", 3);
   const int weights = arrays.add({1, 0, 0, 0, 0.5F, 0.5F, 0, 0, 1, 0, 0, 0}, "VEC4", 4);
   const int times = arrays.add({0, 1}, "SCALAR", 1, R"(,"min":[0],"max":[1])");

@@ -91,7 +91,7 @@ INSTANTIATE_TEST_SUITE_P(
 INSTANTIATE_TEST_SUITE_P(
     Others, PanelClicks,
     ::testing::Values(Click{"pick face:3:1:0:0", {"Point/forget"}, {"pick none"}},
-                      Click{"", {"Sources/centre median"}, {"source centre median"}},
+                      Click{"source set 0,1", {"Sources/centre median"}, {"source centre median"}},
                       Click{"target 7", {"Point/forget paths"}, {"target none"}},
                       Click{"", {"Compare backends/run"}, {"compare all"}},
                       Click{"", {"Menu/Edit", "Menu/Clear sources"}, {"source clear"}},
