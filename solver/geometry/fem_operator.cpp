@@ -214,11 +214,10 @@ std::vector<ColumnSet> FemOperator::columns_beside(std::span<const ColumnSet> se
   return out;
 }
 
-const LowerMatrix& FemOperator::assembled() const {
-  return has_all_ ? assembled_ : assembled_where({});
-}
+const LowerMatrix& FemOperator::assembled() const { return assembled_where({}); }
 
 const LowerMatrix& FemOperator::assembled_where(std::span<const char> wanted) const {
+  if (has_all_) return assembled_;
   assembled_.start = mesh_->lower.start;
   assembled_.row = mesh_->lower.row;
   const RawVector<double> weight = side_weights(wanted);
