@@ -86,7 +86,8 @@ struct OperatorChanges {
   bool empty() const { return rows.empty(); }
 };
 
-/// The operators of a mesh that has the faces and twins of an earlier one, and other lengths.
+/// The operators of a mesh that has the faces and twins of an earlier one, and other lengths: only
+/// where `changes` says so, or everywhere where it is empty.
 std::shared_ptr<const OperatorMesh> moved_operator_mesh(const OperatorMesh& earlier,
                                                         const IntrinsicMesh& mesh,
                                                         const OperatorChanges& changes,

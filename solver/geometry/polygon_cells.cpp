@@ -64,8 +64,8 @@ Vec3 virtual_vertex(std::span<const Vec3> corners) {
   return square.completeOrthogonalDecomposition().solve(right);
 }
 
-/// What a face gives its corners: a cell for each triangle at its virtual vertex, whose value is
-/// the harmonic mean of the corners' by these triangles.
+/// What a face gives its corners: a cell for each triangle at its virtual vertex. The vertex's
+/// value is the mean of the corners' that makes it harmonic on these triangles.
 struct PolygonElement {
   double width = 0;                         ///< mean distance between two corners
   std::vector<double> areas;                ///< of each triangle; none: the face has no area
