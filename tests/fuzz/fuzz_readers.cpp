@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "geotherm/domains.h"
 #include "geotherm/mesh.h"
 #include "solver/grid/io/raw_grid.h"
 #include "solver/mesh/io/gifti_reader.h"
@@ -13,6 +14,7 @@
 #include "solver/mesh/io/input_file.h"
 #include "solver/mesh/io/mask_numbers.h"
 #include "solver/mesh/io/raw_elements.h"
+#include "solver/points/io/raw_points.h"
 #include "solver/volume/io/tetgen_reader.h"
 #include "tests/fuzz/fuzz_targets.h"
 
@@ -75,6 +77,16 @@ std::string elements_read_fault(Bytes bytes) {
   return reading_fault(bytes, [](std::string_view text) { return elements_fault(Read(text)); });
 }
 
+template <io::RawPoints (*Read)(std::string_view)>
+std::string points_read_fault(Bytes bytes) {
+  return reading_fault(bytes, [](std::string_view text) -> std::string {
+    io::RawPoints raw = Read(text);
+    const bool empty = raw.positions.empty();
+    const auto points = PointCloud::build(std::move(raw.positions), std::move(raw.normals));
+    return points || empty ? "" : "unchecked: " + sentence(points.error());
+  });
+}
+
 std::string grid_fault(const io::RawGrid& raw) {
   return io::count_samples(raw.size) == raw.values.size() ? "" : "a grid without all its samples";
 }
@@ -106,7 +118,10 @@ std::string scene_fault(Bytes bytes, const char* format) {
 std::string fuzz_obj(Bytes bytes) {
   return read_fault([](std::string_view text) { return io::read_obj(text); }, bytes);
 }
-std::string fuzz_ply(Bytes bytes) { return read_fault(io::read_ply, bytes); }
+std::string fuzz_ply(Bytes bytes) {
+  const std::string fault = read_fault(io::read_ply, bytes);
+  return fault.empty() ? points_read_fault<io::read_ply_points>(bytes) : fault;
+}
 std::string fuzz_off(Bytes bytes) { return read_fault(io::read_off, bytes); }
 std::string fuzz_stl(Bytes bytes) { return read_fault(io::read_stl, bytes); }
 std::string fuzz_vtk(Bytes bytes) { return elements_read_fault<io::read_vtk>(bytes); }
@@ -140,6 +155,10 @@ std::string fuzz_mask(Bytes bytes) {
   }
   return {};
 }
+
+std::string fuzz_xyz(Bytes bytes) { return points_read_fault<io::read_xyz_points>(bytes); }
+std::string fuzz_pts(Bytes bytes) { return points_read_fault<io::read_pts_points>(bytes); }
+std::string fuzz_pcd(Bytes bytes) { return points_read_fault<io::read_pcd_points>(bytes); }
 
 std::string fuzz_npy(Bytes bytes) { return grid_read_fault<io::read_npy>(bytes); }
 std::string fuzz_png(Bytes bytes) { return grid_read_fault<io::read_png>(bytes); }

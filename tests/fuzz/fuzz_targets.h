@@ -14,6 +14,7 @@ using Bytes = std::span<const std::uint8_t>;
 
 // The bytes of a file, through its reader.
 std::string fuzz_obj(Bytes bytes);
+/// As a mesh, and as points.
 std::string fuzz_ply(Bytes bytes);
 std::string fuzz_off(Bytes bytes);
 std::string fuzz_stl(Bytes bytes);
@@ -29,6 +30,9 @@ std::string fuzz_gii(Bytes bytes);
 std::string fuzz_fsurf(Bytes bytes);
 /// As a mask of every format.
 std::string fuzz_mask(Bytes bytes);
+std::string fuzz_xyz(Bytes bytes);
+std::string fuzz_pts(Bytes bytes);
+std::string fuzz_pcd(Bytes bytes);
 std::string fuzz_npy(Bytes bytes);
 std::string fuzz_png(Bytes bytes);
 std::string fuzz_nrrd(Bytes bytes);

@@ -169,8 +169,14 @@ std::vector<BadPoints> bad_point_files() {
        fields + "POINTS 1\nDATA binary_compressed\n" + bytes_of_number(std::uint32_t{2}) +
            bytes_of_number(std::uint32_t{12}) + "\xe0\x01",
        "byte 67: the packed bytes are damaged"},
-      {"extension", "a.las", "LASF",
-       "unknown extension \".las\" of points; there are .ply .xyz .pts .pcd"},
+      {"extension", "a.e57", "ASTM",
+       "unknown extension \".e57\" of points; there are .ply .xyz .pts .pcd"},
+      {"las", "a.las", "LASF",
+       "points in LAS files are not read; convert them, as by pdal translate scan.las scan.ply"},
+      {"las_packed", "a.LAZ", "LASF",
+       "points in LAS files are not read; convert them, as by pdal translate scan.laz scan.ply"},
+      {"las_by_its_bytes", "scan", "LASF",
+       "points in LAS files are not read; convert them, as by pdal translate scan.las scan.ply"},
   };
 }
 

@@ -46,6 +46,7 @@ constexpr FileBeginning kBeginnings[] = {
     {"\x89PNG", "png"},
     {"NRRD000", "nrrd"},
     {"# .PCD", "pcd"},
+    {"LASF", "las"},
     {"OFF", "off"},
     {"COFF", "off"},
     {"NOFF", "off"},

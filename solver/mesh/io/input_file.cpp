@@ -162,7 +162,10 @@ Result<void> InputFile::prepare(std::string_view format) {
     const std::string_view found = format_by_content(start(kLooked), size());
     const bool by_content = extension_.empty() || (format.empty() && found == "fsurf");
     if (by_content && !found.empty()) extension_ = "." + std::string(found);
-    return {};
+    if (extension_ != ".las" && extension_ != ".laz") return {};
+    return Error{ErrorCode::kNotAvailable,
+                 shown_ + ": points in LAS files are not read",
+                 {"convert them, as by pdal translate scan" + extension_ + " scan.ply"}};
   });
 }
 
