@@ -6,7 +6,7 @@
 #include <string>
 #include <utility>
 
-#include "solver/linear/window_solver.h"
+#include "solver/linear/matrix_rows.h"
 
 namespace geotherm {
 namespace {

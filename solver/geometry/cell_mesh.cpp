@@ -119,8 +119,7 @@ class CellMeshBuilder {
   }
 
   void add_up_stiffness(std::span<const Index> order) {
-    out_.lower = permuted_lower(pattern_.pattern, order, threads_);
-    out_.pattern = pattern_hash(out_.lower, threads_);
+    out_.pattern = pattern_hash(permuted_lower(pattern_.pattern, order, threads_), threads_);
     const SymmetricPattern rows = permuted(pattern_.pattern, order, threads_);
     out_.row_start = rows.start;
     out_.column.assign(rows.neighbor.begin(), rows.neighbor.end());

@@ -57,10 +57,9 @@ struct CellRange {
 struct CellMatrix {
   std::vector<double> mass;   ///< n, > 0
   Components components;      ///< of the rows
-  LowerPattern lower;         ///< of the matrices
-  std::uint64_t pattern = 0;  ///< its hash
+  std::uint64_t pattern = 0;  ///< the hash of that of the matrices
 
-  /// L, all entries of each row but the diagonal's, which is minus their sum.
+  /// L, all entries of each row, ascending, but the diagonal's, which is minus their sum.
   std::vector<std::int64_t> row_start;  ///< n + 1
   RawVector<Index> column;
   RawVector<double> entry;
@@ -126,6 +125,8 @@ class CellOperator final : public DomainOperator {
   Kernel kernel() const override;
   std::uint64_t pattern() const override { return mesh_->pattern; }
   const LowerMatrix& assembled() const override;
+  void drop_assembled() const override { assembled_ = {}; }
+  void list_row(Index i, std::vector<Index>& columns, std::vector<double>& values) const override;
   std::shared_ptr<const DomainOperator> copy() const override {
     return std::make_shared<const CellOperator>(*this);
   }

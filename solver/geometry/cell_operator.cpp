@@ -120,20 +120,47 @@ std::vector<ColumnSet> CellOperator::columns_beside(std::span<const ColumnSet> s
   return out;
 }
 
+void CellOperator::list_row(Index i, std::vector<Index>& columns,
+                            std::vector<double>& values) const {
+  const std::int64_t begin = mesh_->row_start[i];
+  const std::int64_t end = is_held(i) ? begin : mesh_->row_start[i + 1];
+  std::size_t at = columns.size();
+  columns.resize(at + static_cast<std::size_t>(end - begin) + 1);
+  values.resize(columns.size());
+  columns[at] = i;
+  values[at++] = diagonal_[i];
+  for (std::int64_t e = begin; e < end; ++e) {
+    const Index j = mesh_->column[e];
+    if (is_held(j)) continue;
+    columns[at] = j;
+    values[at++] = -weight(i, e);
+  }
+  columns.resize(at);
+  values.resize(at);
+}
+
 const LowerMatrix& CellOperator::assembled() const {
   if (!assembled_.value.empty()) return assembled_;
-  assembled_.start = mesh_->lower.start;
-  assembled_.row = mesh_->lower.row;
+  // What stands behind the diagonal of a row are the entries below it of the column.
+  const auto behind = [this](Index j) {
+    const Index* const end = mesh_->column.data() + mesh_->row_start[j + 1];
+    return end - std::upper_bound(mesh_->column.data() + mesh_->row_start[j], end, j);
+  };
+  assembled_.start.assign(static_cast<std::size_t>(size()) + 1, 0);
+  for (Index j = 0; j < size(); ++j) {
+    assembled_.start[j + 1] = assembled_.start[j] + 1 + behind(j);
+  }
+  assembled_.row.resize(static_cast<std::size_t>(assembled_.start.back()));
   assembled_.value.resize(assembled_.row.size());
   parallel_for(threads_, size(), kCellRowGrain, [&](std::int64_t begin, std::int64_t end) {
     for (auto j = static_cast<Index>(begin); j < static_cast<Index>(end); ++j) {
-      // Both lists ascend: those behind j are the column's, after its diagonal.
       std::int64_t at = assembled_.start[j];
+      assembled_.row[at] = j;
       assembled_.value[at++] = diagonal_[j];
-      for (std::int64_t e = mesh_->row_start[j]; e < mesh_->row_start[j + 1]; ++e) {
+      for (std::int64_t e = mesh_->row_start[j + 1] - behind(j); e < mesh_->row_start[j + 1]; ++e) {
         const Index i = mesh_->column[e];
-        if (i < j) continue;
         const bool free = !is_held(i) && !is_held(j);
+        assembled_.row[at] = i;
         assembled_.value[at++] = free ? -weight(j, e) : 0.0;
       }
     }

@@ -11,6 +11,7 @@
 
 #include "geotherm/backend.h"
 #include "geotherm/types.h"
+#include "solver/linear/matrix_rows.h"
 
 namespace geotherm {
 
@@ -52,7 +53,7 @@ using ColumnSet = std::uint16_t;
 /// semidefinite, rows sum to 0). Rows and columns of held vertices are those of the identity, which
 /// keeps M symmetric and its pattern unchanged: the caller moves known values to the right side.
 /// Immutable but for assembled().
-class DomainOperator : public SymmetricOperator {
+class DomainOperator : public SymmetricOperator, public MatrixRows {
  public:
   std::span<const Index> held() const { return held_; }
   bool is_held(Index i) const { return !is_held_.empty() && is_held_[i] != 0; }

@@ -159,6 +159,31 @@ void FemOperator::residual(const Block& b, const Block& x, Block& r, int threads
   for (const Index i : held()) r.row(i) = b.row(i) - x.row(i);
 }
 
+void FemOperator::list_row(Index i, std::vector<Index>& columns,
+                           std::vector<double>& values) const {
+  const auto begin = std::ssize(columns);
+  columns.push_back(i);
+  values.push_back(diagonal_[i]);
+  if (is_held(i)) return;
+  const auto subtract = [&](Index j, double weight) {
+    if (j == i || is_held(j)) return;
+    const auto at = std::find(columns.begin() + begin, columns.end(), j);
+    if (at != columns.end()) {
+      values[static_cast<std::size_t>(at - columns.begin())] -= weight;
+      return;
+    }
+    columns.push_back(j);
+    values.push_back(-weight);
+  };
+  for (const Side corner : mesh_->corners.at(i)) {
+    const Face& face = mesh_->faces[face_of(corner)];
+    const auto w = weights(static_cast<std::size_t>(face_of(corner)));
+    const int k = corner_of(corner), before = previous_corner(k);
+    subtract(face[next_corner(k)], w[k]);
+    subtract(face[before], w[before]);
+  }
+}
+
 void FemOperator::list_neighbors(Index i, std::vector<Index>& rows) const {
   for (const Index f : mesh_->faces_at(i)) {
     for (const Index j : mesh_->faces[f]) rows.push_back(j);

@@ -32,6 +32,11 @@ class FemOperator final : public DomainOperator {
   std::uint64_t pattern() const override { return mesh_->pattern; }
   const LowerMatrix& assembled() const override;
   const LowerMatrix& assembled_where(std::span<const char> wanted) const override;
+  void drop_assembled() const override {
+    assembled_ = {};
+    has_all_ = false;
+  }
+  void list_row(Index i, std::vector<Index>& columns, std::vector<double>& values) const override;
   void apply_free(std::span<const double> x, std::span<double> y) const override;
   double product_at(Index i, const std::function<double(Index)>& x) const override;
   void residual(const Block& b, const Block& x, Block& r, int threads) const override;

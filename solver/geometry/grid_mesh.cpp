@@ -220,8 +220,7 @@ std::shared_ptr<const CellMatrix> build_grid_matrix(const GridLattice& lattice,
   auto out = std::make_shared<CellMatrix>();
   const auto size = static_cast<Index>(order.size());
   const std::vector<Index> position = inverse_permutation(order, threads);
-  out->lower = permuted_lower(pattern.pattern, order, threads);
-  out->pattern = pattern_hash(out->lower, threads);
+  out->pattern = pattern_hash(permuted_lower(pattern.pattern, order, threads), threads);
   name_components(pattern.parts, order, out->components);
 
   const double relative = lattice.measure() / mean_measure;

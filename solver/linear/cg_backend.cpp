@@ -49,7 +49,11 @@ double share_done(double fallen_to) {
 class ConjugateGradient final : public Factorization {
  public:
   explicit ConjugateGradient(std::shared_ptr<const SymmetricOperator> matrix)
-      : matrix_(std::move(matrix)), multigrid_(Multigrid::build(*matrix_)) {}
+      : matrix_(std::move(matrix)),
+        rows_(dynamic_cast<const MatrixRows*>(matrix_.get())),
+        multigrid_(Multigrid::build(*matrix_)) {
+    if (rows_ != nullptr) rows_->drop_assembled();
+  }
 
   Result<SolveReport> solve(Block& x, std::span<const Index> /*support*/, const Progress& progress,
                             int /*threads*/) const override {
@@ -73,12 +77,12 @@ class ConjugateGradient final : public Factorization {
   Result<SolveReport> solve_where(Block& x, std::span<const Index> support,
                                   std::span<const char> wanted, const Progress& progress,
                                   int threads) const override {
-    if (size() < kWorthWindows || size() > kMaxWindowed || support.empty() ||
+    if (rows_ == nullptr || size() < kWorthWindows || size() > kMaxWindowed || support.empty() ||
         !matrix_->kernel().empty()) {
       return Factorization::solve_where(x, support, wanted, progress, threads);
     }
     std::call_once(window_made_,
-                   [this] { window_ = std::make_unique<WindowSolver>(matrix_->assembled()); });
+                   [this] { window_ = std::make_unique<WindowSolver>(*matrix_, *rows_); });
     SolveReport out;
     for (Eigen::Index c = 0; c < x.cols(); ++c) {
       const auto columns = static_cast<double>(x.cols());
@@ -173,6 +177,7 @@ class ConjugateGradient final : public Factorization {
   }
 
   std::shared_ptr<const SymmetricOperator> matrix_;
+  const MatrixRows* rows_;                      ///< of the same; null: it does not know them
   std::unique_ptr<const Multigrid> multigrid_;  ///< null: the diagonal
   mutable std::once_flag window_made_;
   mutable std::unique_ptr<const WindowSolver> window_;

@@ -75,18 +75,27 @@ LowerMatrix joined_matrix(const LowerMatrix& matrix, const std::vector<Index>& j
   }
   LowerMatrix out;
   out.start.push_back(0);
-  for (Index c = 0; c < count; ++c) {
+  for (Index c = 0; c < count; ++c) {  // each column's to its front
     const auto begin = entries.begin() + start[c], end = entries.begin() + start[c + 1];
     std::sort(begin, end, [](const auto& a, const auto& b) { return a.first < b.first; });
-    for (auto at = begin; at != end; ++at) {
-      if (at != begin && at->first == out.row.back()) {
-        out.value.back() += at->second;
+    auto last = begin;
+    for (auto at = begin + 1; at != end; ++at) {
+      if (at->first == last->first) {
+        last->second += at->second;
       } else {
-        out.row.push_back(at->first);
-        out.value.push_back(at->second);
+        *++last = *at;
       }
     }
-    out.start.push_back(std::ssize(out.row));
+    out.start.push_back(out.start.back() + (last - begin) + 1);
+  }
+  out.row.reserve(static_cast<std::size_t>(out.start.back()));
+  out.value.reserve(out.row.capacity());
+  for (Index c = 0; c < count; ++c) {
+    const auto begin = entries.begin() + start[c];
+    for (auto at = begin; at != begin + (out.start[c + 1] - out.start[c]); ++at) {
+      out.row.push_back(at->first);
+      out.value.push_back(at->second);
+    }
   }
   return out;
 }

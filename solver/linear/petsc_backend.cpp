@@ -8,8 +8,8 @@
 
 #include "solver/core/text.h"
 #include "solver/linear/backend_registry.h"
+#include "solver/linear/matrix_rows.h"
 #include "solver/linear/mpi_module.h"
-#include "solver/linear/window_solver.h"
 
 namespace geotherm {
 namespace {

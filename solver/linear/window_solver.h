@@ -2,22 +2,10 @@
 #pragma once
 
 #include <span>
-#include <vector>
 
-#include "geotherm/backend.h"
+#include "solver/linear/matrix_rows.h"
 
 namespace geotherm {
-
-/// All entries of a symmetric matrix, row by row, columns ascending.
-struct FullRows {
-  std::vector<int> start, column;
-  std::vector<double> value;
-
-  Index size() const { return static_cast<Index>(start.size()) - 1; }
-};
-
-/// Zeros beside the diagonal are left out.
-FullRows full_rows(const LowerMatrix& lower);
 
 /// Conjugate gradients on the rows around a right side that is zero but for a few of them. Answers
 /// of a heat step fall by e over each diffusion length, so that what lies further away than the
@@ -25,7 +13,8 @@ FullRows full_rows(const LowerMatrix& lower);
 /// matrix.
 class WindowSolver {
  public:
-  explicit WindowSolver(const LowerMatrix& lower);
+  /// Of one matrix. Keeps a reference to its rows.
+  WindowSolver(const SymmetricOperator& matrix, const MatrixRows& rows);
 
   /// Column `column` of M x = b in place, where b is zero but for `support`: rows out of the window
   /// become 0. The window grows until what is left beyond it, and within, is below `tolerance` of b
@@ -35,7 +24,8 @@ class WindowSolver {
             int budget) const;
 
  private:
-  FullRows rows_;
+  const MatrixRows& rows_;
+  Index size_;
   double length_ = 1;  ///< diffusion length in edges, about
 };
 

@@ -89,13 +89,24 @@ TEST_P(Operators, DivergenceOfTheGradientIsTheStiffness) {
 
 class OperatorForms : public Operators {
  protected:
-  /// apply(), assembled(), diagonal(), residual() and pattern say the same.
+  /// apply(), assembled(), rows, diagonal(), residual() and pattern say the same.
   static void expect_one_operator(const FemOperator& M) {
     const Eigen::MatrixXd applied = dense(M), stored = dense(M.assembled());
     EXPECT_LE(relative_difference(values(stored), values(applied)), kOperatorRoundOff);
     EXPECT_LE((applied - applied.transpose()).lpNorm<Eigen::Infinity>(),
               kOperatorRoundOff * applied.lpNorm<Eigen::Infinity>());
     EXPECT_LE(relative_difference(M.diagonal(), values(stored.diagonal())), 0);
+    Eigen::MatrixXd listed = Eigen::MatrixXd::Zero(M.size(), M.size());
+    std::vector<Index> columns;
+    std::vector<double> entries;
+    for (Index i = 0; i < M.size(); ++i, columns.clear(), entries.clear()) {
+      M.list_row(i, columns, entries);
+      EXPECT_EQ(columns.front(), i);
+      for (std::size_t e = 0; e < columns.size(); ++e) listed(i, columns[e]) += entries[e];
+    }
+    EXPECT_LE(relative_difference(values(listed), values(stored)), kOperatorRoundOff);
+    M.drop_assembled();
+    EXPECT_EQ(dense(M.assembled()), stored);
     constexpr int kColumns = 3;
     const Block x = random_vector(kColumns * M.size()).reshaped(M.size(), kColumns);
     const Block b = x.rowwise().reverse();
