@@ -49,8 +49,15 @@ Result<CommandOutput> run_info(const InfoArguments& arguments, const Progress& p
   if (model->is_mesh()) {
     for (Warning& warning : mesh_warnings(mesh)) out.warnings.push_back(std::move(warning));
   }
-  const CrackReport cracks = model->is_mesh() ? find_cracks(*model->mesh) : CrackReport();
-  if (cracks.vertices > 0) out.warnings.push_back(crack_note(cracks));
+  const bool polygons = domain_name(*model) == "polygons";
+  const CrackReport cracks =
+      model->is_mesh() || polygons ? find_cracks(*model->mesh) : CrackReport();
+  if (cracks.vertices > 0) {
+    Warning note = crack_note(cracks);
+    const Hint as_triangles = {"with ", SettingHint{"domain", {"triangles"}}, ", "};
+    if (polygons) note.hint.insert(note.hint.begin(), as_triangles.begin(), as_triangles.end());
+    out.warnings.push_back(std::move(note));
+  }
   if (!outputs.uses_stdout()) out.text = info_table(*model, mesh);
   if (arguments.json.empty()) return out;
 

@@ -90,8 +90,10 @@ PolygonSpace::PolygonSpace(std::shared_ptr<const CellComplex> cells,
       cells_(std::move(cells)),
       triangles_(std::move(triangles)),
       cells_of_faces_(std::move(cells_of_faces)) {
-  auto numbers = cells_->numbers;
-  count_ = static_cast<Index>(std::unique(numbers.begin(), numbers.end()) - numbers.begin());
+  const auto& numbers = cells_->numbers;
+  for (std::size_t c = 0; c < numbers.size(); ++c) {
+    count_ += c == 0 || numbers[c] != numbers[c - 1] ? 1 : 0;
+  }
 }
 
 namespace {

@@ -190,7 +190,7 @@ class PolygonSpace final : public Space {
   std::shared_ptr<const CellComplex> cells_;
   std::shared_ptr<const TriangleMesh> triangles_;
   std::vector<Index> cells_of_faces_;
-  Index count_;  ///< of polygons, each of which is several cells
+  Index count_ = 0;  ///< of polygons, each of which is several cells
 };
 
 }  // namespace geotherm::app

@@ -39,7 +39,7 @@ double badness_of(const TriedSetting& tried) {
 void add_gain(const AccuracyReport& report, const TriedSetting& tried, Hint& advice) {
   std::string gain = " it is ";
   if (tried.option == "method" && tried.value == to_text(tried.against)) {
-    gain += tried.value;
+    gain += tried.against == MethodKind::kExact ? "exact" : "near exact";
   } else {
     gain += figure_text(report.figures, tried.mean_relative, tried.max_of_range);
     if (tried.against != report.reference) gain += " (against " + to_text(tried.against) + ')';

@@ -169,15 +169,16 @@ std::string share(Index count, std::size_t of) {
          " %)";
 }
 
-void add_lost_faces(const HeatOptions& options, const CellCounts& faces, DistanceResult& result) {
+void add_lost_cells(const HeatOptions& options, const CellCounts& cells, const char* names,
+                    DistanceResult& result) {
   const bool dirichlet = options.boundary == BoundaryRule::kDirichlet;
-  const bool mostly_border = dirichlet && faces.without_direction > kBorderShare * faces.in_reach;
-  const Index lost = mostly_border ? faces.without_direction : result.quality.zero_gradient_faces;
+  const bool mostly_border = dirichlet && cells.without_direction > kBorderShare * cells.in_reach;
+  const Index lost = mostly_border ? cells.without_direction : result.quality.zero_gradient_faces;
   if (lost == 0) return;
   result.warnings.push_back(
       {"the heat has no direction on " + std::to_string(lost) + " of " +
-           std::to_string(faces.in_reach) + " faces " +
-           share(lost, static_cast<std::size_t>(faces.in_reach)) +
+           std::to_string(cells.in_reach) + " " + names + " " +
+           share(lost, static_cast<std::size_t>(cells.in_reach)) +
            (dirichlet ? ": the border, held at 0, cuts them off"
                       : ", distances there follow their surroundings"),
        dirichlet ? other_border() : time_hint("raise ", options.time_step.rule)});
@@ -219,9 +220,10 @@ Error with_time_hint(Error error, double unit_t, TimeRule rule) {
 }
 
 Result<void> assess_heat(const HeatOptions& options, double unit_t, const CellCounts& cells,
-                         DistanceResult& result, double usual_heat_residual) {
+                         DistanceResult& result, double usual_heat_residual,
+                         const char* cell_names) {
   const Quality& q = result.quality;
-  add_lost_faces(options, cells, result);
+  add_lost_cells(options, cells, cell_names, result);
   add_clamped_vertices(options, result);
   add_bound_warnings(MethodKind::kHeat, result);
   for (const bool heat : {true, false}) {

@@ -43,9 +43,11 @@ bool is_extreme_time(double unit_t);
 Error with_time_hint(Error error, double unit_t, TimeRule rule);
 
 /// Appends to an answer what a person should know about its quality figures, which must be filled
-/// in. `usual_heat_residual`: what the way in which the heat step was solved leaves by design.
+/// in. `usual_heat_residual`: what the way in which the heat step was solved leaves by design;
+/// `cell_names`: what cells are called in messages.
 /// Errors: kNumericalFailure where residuals say that this is no answer at all.
 Result<void> assess_heat(const HeatOptions& options, double unit_t, const CellCounts& cells,
-                         DistanceResult& result, double usual_heat_residual = 0);
+                         DistanceResult& result, double usual_heat_residual = 0,
+                         const char* cell_names = "faces");
 
 }  // namespace geotherm

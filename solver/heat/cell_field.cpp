@@ -227,11 +227,21 @@ Block CellField::divergence(std::span<const SourceAnchors> anchors) const {
   return b;
 }
 
+/// Cells that share a number, as the triangles of a polygon do, follow each other and are one cell
+/// of what was given: it has a direction where one of them has.
 CellCounts CellField::inspect(std::span<const double> phi, Eigen::Index column,
                               const SourceAnchors& anchors, std::span<const char> held_at_zero,
                               int threads, Quality& quality) const {
   const CellMesh& mesh = *domain_.mesh;
   const Inspection inspection(mesh.components, phi.size(), anchors, held_at_zero);
+  const std::vector<Index>& numbers = domain_.given->numbers;
+  const auto goes_on = [&](Index c) {
+    return c > 0 && c < mesh.cell_count() && !numbers.empty() &&
+           numbers[mesh.given_cell[c]] == numbers[mesh.given_cell[c - 1]];
+  };
+  const auto has_direction = [&](Index c) {
+    return of_cell(c, inverse_square(c), column) != Direction{};
+  };
   Sums all;
   for (const Sums& part :
        sums_of_blocks<Sums>(threads, mesh.cell_count(), [&](std::int64_t begin, std::int64_t end) {
@@ -239,10 +249,14 @@ CellCounts CellField::inspect(std::span<const double> phi, Eigen::Index column,
          for (auto c = static_cast<Index>(begin); c < static_cast<Index>(end); ++c) {
            const auto corners = mesh.corners_of(c);
            if (!inspection.reaches(corners)) continue;
-           const Direction x = of_cell(c, inverse_square(c), column);
+           if (!goes_on(c)) {
+             bool found = has_direction(c);
+             for (Index next = c + 1; !found && goes_on(next); ++next) found = has_direction(next);
+             inspection.count(corners, found, sum);
+           }
            const double slope =
                norm(cell_gradient(mesh, c, [&](std::size_t k) { return phi[corners[k]]; }));
-           inspection.add(corners, x, slope, mesh.measures[c], sum);
+           inspection.add_slope(slope, mesh.measures[c], sum);
          }
          return sum;
        })) {

@@ -96,15 +96,16 @@ class CellsUnitField : public UnitField {
     }
 
     bool reaches(std::span<const Index> rows) const { return holds_[parts_.of[rows.front()]] != 0; }
-    /// Adds a cell that is reached. `slope`: |grad phi|.
-    void add(std::span<const Index> rows, const Direction& x, double slope, double measure,
-             Sums& sum) const {
+    /// Counts a cell that is reached.
+    void count(std::span<const Index> rows, bool has_direction, Sums& sum) const {
       ++sum.counts.in_reach;
-      if (x == Direction{}) {
-        ++sum.counts.without_direction;
-        const bool known = std::ranges::all_of(rows, [this](Index row) { return held_[row] != 0; });
-        sum.lost += known ? 0 : 1;
-      }
+      if (has_direction) return;
+      ++sum.counts.without_direction;
+      const bool known = std::ranges::all_of(rows, [this](Index row) { return held_[row] != 0; });
+      sum.lost += known ? 0 : 1;
+    }
+    /// Adds the slope |grad phi| of a cell that is reached, or of a part of it.
+    static void add_slope(double slope, double measure, Sums& sum) {
       sum.error += measure * std::abs(slope - 1);
       sum.measure += measure;
     }

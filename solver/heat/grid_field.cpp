@@ -214,7 +214,8 @@ CellCounts GridField::inspect(std::span<const double> phi, Eigen::Index column,
     if (!inspection.reaches(rows)) return;
     const double slope =
         norm(element.gradient([&](std::size_t k) { return phi[element.rows[k]]; }));
-    inspection.add(rows, of_cell(element, column), slope, element.measure, sum);
+    inspection.count(rows, of_cell(element, column) != Direction{}, sum);
+    inspection.add_slope(slope, element.measure, sum);
   };
   parallel_for(threads, std::ssize(sums), 1, [&](std::int64_t begin, std::int64_t end) {
     for (auto r = static_cast<std::size_t>(begin); r < static_cast<std::size_t>(end); ++r) {

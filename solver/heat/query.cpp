@@ -195,8 +195,8 @@ Result<void> solve_group(const QueryPipeline& p, std::span<const SourceSet> sets
       const CellCounts cells =
           field->inspect(phi, column, anchors[c], held_at_zero(p), work.threads, result.quality);
       p.domain.check_straight_lines(sets[c], work.threads, result);
-      const auto assessed =
-          assess_heat(p.options, extreme_time(p.times, anchors[c]), cells, result);
+      const auto assessed = assess_heat(p.options, extreme_time(p.times, anchors[c]), cells, result,
+                                        0, p.domain.input->cell_names()[1]);
       if (!assessed) return assessed.error();
     }
     if (query.fields) {

@@ -123,6 +123,11 @@ TEST_F(ProgramOnSpaces, InfoHasTheFiguresOfTheSpace) {
   EXPECT_EQ(squares["edges"], 9);
   EXPECT_EQ(squares["boundary_edges"], 7);
   EXPECT_NEAR(squares["area"].get<double>(), 2.5, 1e-12);
+  folder.write("soup.obj",
+               "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 1 0 0\nv 2 0 0\nv 2 1 0\nv 1 1 0\n"
+               "f 1 2 3 4\nf 5 6 7 8\n");
+  const std::string soup = run({"info", "soup.obj", "--domain", "polygons"}).err;
+  EXPECT_NE(soup.find("with --domain triangles, --weld 0 closes 2 of 8"), soup.npos) << soup;
 }
 
 TEST_F(ProgramOnSpaces, FieldsAreThoseOfTheirCells) {

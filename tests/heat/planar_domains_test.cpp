@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 #include <numbers>
+#include <string>
 #include <utility>
 
 #include "tests/support/cells.h"
@@ -68,6 +69,18 @@ TEST(Domains, OnQuadsErrorsFallWithTheSides) {
     before = error;
   }
   EXPECT_LE(before, 0.02);
+}
+
+TEST(Domains, PolygonsWithoutADirectionAreCountedAsPolygons) {
+  PolygonMesh strip = quads(4, 0);
+  strip.start.resize(5);
+  strip.corners.resize(16);
+  HeatOptions options;
+  options.boundary = BoundaryRule::kDirichlet;  // all vertices are on it
+  const auto result = solve_cells(shared(cells_of(strip)), SourceSet::of_vertices({0}), options);
+  ASSERT_FALSE(result.warnings.empty());
+  const std::string& said = result.warnings[0].message;
+  EXPECT_NE(said.find("no direction on 3 of 4 polygons"), said.npos) << said;
 }
 
 /// A torus of quads, none of them planar.
