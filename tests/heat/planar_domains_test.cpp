@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <numbers>
-#include <string>
 #include <utility>
 
 #include "tests/support/cells.h"
@@ -78,9 +78,9 @@ TEST(Domains, PolygonsWithoutADirectionAreCountedAsPolygons) {
   HeatOptions options;
   options.boundary = BoundaryRule::kDirichlet;  // all vertices are on it
   const auto result = solve_cells(shared(cells_of(strip)), SourceSet::of_vertices({0}), options);
-  ASSERT_FALSE(result.warnings.empty());
-  const std::string& said = result.warnings[0].message;
-  EXPECT_NE(said.find("no direction on 3 of 4 polygons"), said.npos) << said;
+  EXPECT_TRUE(std::ranges::any_of(result.warnings, [](const Warning& warning) {
+    return warning.message.starts_with("the heat has no direction on 3 of 4 polygons");
+  }));
 }
 
 /// A torus of quads, none of them planar.
