@@ -122,7 +122,7 @@ std::string to_speeds(io::RawGrid& raw, GridValues asked) {
       throw io::ReadFailure{"the speed " + place_in(raw.size, i) + " is " + rounded_text(value),
                             0,
                             {},
-                            {"speeds are 0 or more; ", SettingHint{"grid", {"mask"}},
+                            {"speeds are finite, 0 or more; ", SettingHint{"grid", {"mask"}},
                              " takes what is not 0 as passable"}};
     } else if (pixels) {
       value /= kWhite;
