@@ -52,9 +52,11 @@ Index join_pairs(const LowerMatrix& matrix, std::vector<Index>& joined) {
   return count;
 }
 
-/// The matrix on joined unknowns: sums of its entries.
+/// The matrix on joined unknowns: sums of its entries. They are gathered for some columns at a
+/// time, else they would take more memory than the matrix itself.
 LowerMatrix joined_matrix(const LowerMatrix& matrix, const std::vector<Index>& joined,
                           Index count) {
+  constexpr Index kColumnsAtOnce = 1 << 19;
   const auto column_of = [&](Index i, Index j) { return std::min(joined[i], joined[j]); };
   std::vector<std::int64_t> start(static_cast<std::size_t>(count) + 1, 0);
   for (Index j = 0; j < matrix.size(); ++j) {
@@ -63,38 +65,38 @@ LowerMatrix joined_matrix(const LowerMatrix& matrix, const std::vector<Index>& j
     }
   }
   std::partial_sum(start.begin(), start.end(), start.begin());
-  std::vector<std::pair<Index, double>> entries(static_cast<std::size_t>(start.back()));
-  std::vector<std::int64_t> next(start.begin(), start.end() - 1);
-  for (Index j = 0; j < matrix.size(); ++j) {
-    for (std::int64_t e = matrix.start[j]; e < matrix.start[j + 1]; ++e) {
-      const Index i = matrix.row[e];
-      const bool inside = joined[i] == joined[j] && i != j;  // stands for both triangles
-      entries[static_cast<std::size_t>(next[column_of(i, j)]++)] = {
-          std::max(joined[i], joined[j]), inside ? 2 * matrix.value[e] : matrix.value[e]};
-    }
-  }
   LowerMatrix out;
   out.start.push_back(0);
-  for (Index c = 0; c < count; ++c) {  // each column's to its front
-    const auto begin = entries.begin() + start[c], end = entries.begin() + start[c + 1];
-    std::sort(begin, end, [](const auto& a, const auto& b) { return a.first < b.first; });
-    auto last = begin;
-    for (auto at = begin + 1; at != end; ++at) {
-      if (at->first == last->first) {
-        last->second += at->second;
-      } else {
-        *++last = *at;
+  out.row.reserve(static_cast<std::size_t>(start.back()));
+  out.value.reserve(out.row.capacity());
+  std::vector<std::pair<Index, double>> entries;
+  for (Index first = 0; first < count; first += kColumnsAtOnce) {
+    const Index last = std::min(first + kColumnsAtOnce, count);
+    entries.resize(static_cast<std::size_t>(start[last] - start[first]));
+    std::vector<std::int64_t> next;
+    for (Index c = first; c < last; ++c) next.push_back(start[c] - start[first]);
+    for (Index j = 0; j < matrix.size(); ++j) {
+      for (std::int64_t e = matrix.start[j]; e < matrix.start[j + 1]; ++e) {
+        const Index i = matrix.row[e], column = column_of(i, j);
+        if (column < first || column >= last) continue;
+        const bool inside = joined[i] == joined[j] && i != j;  // stands for both triangles
+        entries[static_cast<std::size_t>(next[column - first]++)] = {
+            std::max(joined[i], joined[j]), inside ? 2 * matrix.value[e] : matrix.value[e]};
       }
     }
-    out.start.push_back(out.start.back() + (last - begin) + 1);
-  }
-  out.row.reserve(static_cast<std::size_t>(out.start.back()));
-  out.value.reserve(out.row.capacity());
-  for (Index c = 0; c < count; ++c) {
-    const auto begin = entries.begin() + start[c];
-    for (auto at = begin; at != begin + (out.start[c + 1] - out.start[c]); ++at) {
-      out.row.push_back(at->first);
-      out.value.push_back(at->second);
+    for (Index c = first; c < last; ++c) {
+      const auto begin = entries.begin() + (start[c] - start[first]);
+      const auto end = entries.begin() + (start[c + 1] - start[first]);
+      std::sort(begin, end, [](const auto& a, const auto& b) { return a.first < b.first; });
+      for (auto at = begin; at != end; ++at) {
+        if (at != begin && at->first == out.row.back()) {
+          out.value.back() += at->second;
+        } else {
+          out.row.push_back(at->first);
+          out.value.push_back(at->second);
+        }
+      }
+      out.start.push_back(std::ssize(out.row));
     }
   }
   return out;
