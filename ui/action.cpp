@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "ui/action.h"
 
+#include <algorithm>
+#include <iterator>
+#include <optional>
 #include <utility>
 
 #include "app/picture/picture_text.h"
@@ -13,62 +16,45 @@ namespace {
 
 using app::View;
 
-std::optional<View> view_of(Action action) {
-  switch (action) {
-    case Action::kWireframe:
-      return View::kWireframe;
-    case Action::kFlat:
-      return View::kFlat;
-    case Action::kSmooth:
-      return View::kSmooth;
-    case Action::kSources:
-      return View::kSources;
-    case Action::kHeatGradient:
-      return View::kHeatGradient;
-    case Action::kGradientError:
-      return View::kGradientError;
-    case Action::kContours:
-      return View::kContours;
-    case Action::kExactError:
-      return View::kExactError;
-    case Action::kRegions:
-      return View::kRegions;
-    case Action::kEikonalError:
-      return View::kEikonalError;
-    case Action::kLostGradients:
-      return View::kLostGradients;
-    case Action::kTriangleQuality:
-      return View::kTriangleQuality;
-    case Action::kNonDelaunay:
-      return View::kNonDelaunay;
-    default:
-      return std::nullopt;
-  }
-}
+constexpr std::pair<Action, View> kViews[] = {
+    {Action::kWireframe, View::kWireframe},
+    {Action::kFlat, View::kFlat},
+    {Action::kSmooth, View::kSmooth},
+    {Action::kSources, View::kSources},
+    {Action::kHeatGradient, View::kHeatGradient},
+    {Action::kGradientError, View::kGradientError},
+    {Action::kContours, View::kContours},
+    {Action::kExactError, View::kExactError},
+    {Action::kRegions, View::kRegions},
+    {Action::kEikonalError, View::kEikonalError},
+    {Action::kLostGradients, View::kLostGradients},
+    {Action::kTriangleQuality, View::kTriangleQuality},
+    {Action::kNonDelaunay, View::kNonDelaunay},
+};
 
-std::optional<FilePurpose> purpose_of(Action action) {
-  switch (action) {
-    case Action::kOpenModel:
-      return FilePurpose::kOpenModel;
-    case Action::kOpenSession:
-      return FilePurpose::kOpenSession;
-    case Action::kOpenSequence:
-      return FilePurpose::kOpenSequence;
-    case Action::kSaveSession:
-      return FilePurpose::kSaveSession;
-    case Action::kSavePicture:
-      return FilePurpose::kSavePicture;
-    case Action::kSaveDistances:
-      return FilePurpose::kSaveDistances;
-    case Action::kSaveFigures:
-      return FilePurpose::kSaveFigures;
-    case Action::kSaveLog:
-      return FilePurpose::kSaveLog;
-    case Action::kSaveMesh:
-      return FilePurpose::kSaveMesh;
-    default:
-      return std::nullopt;
-  }
+constexpr std::pair<Action, FilePurpose> kPurposes[] = {
+    {Action::kOpenModel, FilePurpose::kOpenModel},
+    {Action::kOpenSession, FilePurpose::kOpenSession},
+    {Action::kOpenSequence, FilePurpose::kOpenSequence},
+    {Action::kSaveSession, FilePurpose::kSaveSession},
+    {Action::kSavePicture, FilePurpose::kSavePicture},
+    {Action::kSaveDistances, FilePurpose::kSaveDistances},
+    {Action::kSaveFigures, FilePurpose::kSaveFigures},
+    {Action::kSaveLog, FilePurpose::kSaveLog},
+    {Action::kSaveMesh, FilePurpose::kSaveMesh},
+};
+
+constexpr std::pair<Action, Tool> kTools[] = {
+    {Action::kViewTool, Tool::kView}, {Action::kSourceTool, Tool::kSource},
+    {Action::kBrush, Tool::kBrush},   {Action::kPathTool, Tool::kPath},
+    {Action::kPickTool, Tool::kPick}, {Action::kSculpt, Tool::kSculpt},
+};
+
+/// What a table has for the action.
+template <class Value, std::size_t kCount>
+std::optional<Value> find_in(const std::pair<Action, Value> (&table)[kCount], Action action) {
+  const auto* const found = std::ranges::find(table, action, &std::pair<Action, Value>::first);
+  return found == std::end(table) ? std::nullopt : std::optional(found->second);
 }
 
 /// The frame so many after the one that is shown, round the end. Precondition: there are frames.
@@ -79,7 +65,7 @@ app::Command frame_beside(const Frame& frame, int step) {
 
 /// What an action sends, where it sends something.
 std::optional<app::Command> command_of(const Frame& frame, Action action) {
-  if (const auto view = view_of(action)) {
+  if (const auto view = find_in(kViews, action)) {
     return app::command::Set{"view", geotherm::to_text(*view)};
   }
   switch (action) {
@@ -142,25 +128,6 @@ void stop(Frame& frame) {
   }
 }
 
-std::optional<Tool> tool_of(Action action) {
-  switch (action) {
-    case Action::kViewTool:
-      return Tool::kView;
-    case Action::kSourceTool:
-      return Tool::kSource;
-    case Action::kBrush:
-      return Tool::kBrush;
-    case Action::kPathTool:
-      return Tool::kPath;
-    case Action::kPickTool:
-      return Tool::kPick;
-    case Action::kSculpt:
-      return Tool::kSculpt;
-    default:
-      return std::nullopt;
-  }
-}
-
 Rect& bar_of(Places& places, Drawer bar) {
   if (bar == Drawer::kLog) return places.log;
   return bar == Drawer::kRight ? places.right : places.left;
@@ -191,7 +158,7 @@ void fit_model(Frame& frame) {
 
 void turn_switch(Frame& frame, Action action) {
   Layout& layout = frame.ui.layout;
-  if (const auto tool = tool_of(action)) {
+  if (const auto tool = find_in(kTools, action)) {
     Tool& now = frame.ui.input.tool;
     now = now == *tool ? Tool::kSource : *tool;
     return;
@@ -244,7 +211,8 @@ void perform(Frame& frame, Action action) {
   if (!is_possible(frame, action)) return;
   if (action == Action::kCompare) show_compare(frame);
   if (auto command = command_of(frame, action)) return frame.send(*std::move(command));
-  if (const auto purpose = purpose_of(action)) return frame.ui.dialog.ask(*purpose, frame.state());
+  if (const auto purpose = find_in(kPurposes, action))
+    return frame.ui.dialog.ask(*purpose, frame.state());
   turn_switch(frame, action);
 }
 
@@ -301,8 +269,8 @@ bool is_possible(const Frame& frame, Action action) {
 }
 
 bool is_on(const Frame& frame, Action action) {
-  if (const auto view = view_of(action)) return frame.state().picture.view == *view;
-  if (const auto tool = tool_of(action)) return frame.ui.input.tool == *tool;
+  if (const auto view = find_in(kViews, action)) return frame.state().picture.view == *view;
+  if (const auto tool = find_in(kTools, action)) return frame.ui.input.tool == *tool;
   switch (action) {
     case Action::kRotate:
       return frame.state().rotating;

@@ -312,8 +312,8 @@ void FrameRecorder::record_markers(const vk::raii::CommandBuffer& commands,
       commands.draw(4, marker_count_, 0, 0);
     }
   };
-  draw(pipelines_.hidden_markers(), style.hidden_opacity);
-  draw(pipelines_.visible_markers(), 1);
+  draw(pipelines_.markers(true), style.hidden_opacity);
+  draw(pipelines_.markers(false), 1);
 }
 
 void FrameRecorder::record_overlay(const vk::raii::CommandBuffer& commands) {

@@ -175,25 +175,16 @@ vk::Pipeline Pipelines::lines(bool hidden) {
                .depth_test = hidden ? vk::CompareOp::eLess : vk::CompareOp::eGreaterOrEqual});
 }
 
-vk::Pipeline Pipelines::visible_markers() {
-  return made(2U << 16, {.vertex = embedded::marker_vert(),
-                         .fragment = embedded::marker_frag(),
-                         .bindings = {{0, sizeof(Marker), kPerInstance}},
-                         .attributes = {{0, 0, kFloat3, offsetof(Marker, from)},
-                                        {1, 0, kFloat3, offsetof(Marker, to)}},
-                         .topology = vk::PrimitiveTopology::eTriangleStrip,
-                         .blend = true});
-}
-
-vk::Pipeline Pipelines::hidden_markers() {
-  return made(3U << 16, {.vertex = embedded::marker_vert(),
-                         .fragment = embedded::marker_frag(),
-                         .bindings = {{0, sizeof(Marker), kPerInstance}},
-                         .attributes = {{0, 0, kFloat3, offsetof(Marker, from)},
-                                        {1, 0, kFloat3, offsetof(Marker, to)}},
-                         .topology = vk::PrimitiveTopology::eTriangleStrip,
-                         .blend = true,
-                         .depth_test = vk::CompareOp::eLess});
+vk::Pipeline Pipelines::markers(bool hidden) {
+  return made((hidden ? 3U : 2U) << 16,
+              {.vertex = embedded::marker_vert(),
+               .fragment = embedded::marker_frag(),
+               .bindings = {{0, sizeof(Marker), kPerInstance}},
+               .attributes = {{0, 0, kFloat3, offsetof(Marker, from)},
+                              {1, 0, kFloat3, offsetof(Marker, to)}},
+               .topology = vk::PrimitiveTopology::eTriangleStrip,
+               .blend = true,
+               .depth_test = hidden ? vk::CompareOp::eLess : vk::CompareOp::eGreaterOrEqual});
 }
 
 vk::Pipeline Pipelines::overlay() {

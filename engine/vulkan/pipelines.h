@@ -23,8 +23,7 @@ class Pipelines {
   vk::Pipeline surface(std::uint32_t features);  ///< features: shared.h
   vk::Pipeline arrows();
   vk::Pipeline lines(bool hidden);
-  vk::Pipeline visible_markers();
-  vk::Pipeline hidden_markers();
+  vk::Pipeline markers(bool hidden);
   vk::Pipeline overlay();
   vk::Pipeline panels();
 
