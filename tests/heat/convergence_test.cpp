@@ -8,9 +8,9 @@
 // own anisotropy, however fine the lattice: the error falls at first, then stays below a per cent.
 #include <gtest/gtest.h>
 
-#include <Eigen/Geometry>
 #include <cmath>
 
+#include "tests/support/known_shapes.h"
 #include "tests/support/solve.h"
 
 namespace geotherm::test {
@@ -24,50 +24,20 @@ constexpr double kClassicMeanRate = 0.45;
 // Fixed factor, coarse meshes: measured 0.5 on the square lattice to 1.7 on the sphere.
 constexpr double kFixedFactorRate = 0.4;
 
-struct Shape {
-  const char* name;
-  Draft (*draft)(Index n);
-  Index (*source)(Index n);
-  double (*exact)(const Draft&, Index n, Index v);
-  double within;  ///< errors count up to this distance: a border bends the heat beside it
-};
-
-double in_plane(const Draft& draft, Index n, Index v) {
-  return (draft.positions[v] - draft.positions[grid_vertex(n, n / 2, n / 2)]).norm();
-}
-double on_sphere(const Draft& draft, Index /*n*/, Index v) {
-  const Vec3 &a = draft.positions[0], &b = draft.positions[v];
-  return std::atan2(a.cross(b).norm(), a.dot(b));
-}
-double on_prism(const Draft& draft, Index n, Index v) {
-  const double along = static_cast<double>(v % n) / n;
-  return std::hypot(std::min(along, 1 - along), draft.positions[v].z() - 0.5);
-}
-/// From the corner where both folds meet; the fold keeps distances to it.
-double on_flat_torus(const Draft& draft, Index /*n*/, Index v) { return draft.positions[v].norm(); }
-double from_apex(const Draft& draft, Index /*n*/, Index v) { return draft.positions[v].norm(); }
-
-Index first_vertex(Index /*n*/) { return 0; }
-Index centre(Index n) { return grid_vertex(n, n / 2, n / 2); }
-Index half_way_up(Index n) { return n / 2 * n; }
-constexpr double kEverywhere = 1e9;
-
-const Shape kShapes[] = {
+const KnownShape kShapes[] = {
     {"plane", [](Index n) { return plane_grid(n, n, 1, 1); }, centre, in_plane, 0.4},
     {"irregular_plane", [](Index n) { return jittered_plane(n, 0.3, 7); }, centre, in_plane, 0.4},
-    {"sphere", [](Index n) { return sphere(static_cast<int>(std::lround(std::log2(n))) - 2); },
-     first_vertex, on_sphere, kEverywhere},
-    {"cylinder", [](Index n) { return prism(n, n, 1); }, half_way_up, on_prism, kEverywhere},
-    {"flat_torus", [](Index n) { return folded_flat_torus(n, 0.3, 3); }, first_vertex,
-     on_flat_torus, kEverywhere},
-    {"cone", [](Index n) { return pyramid(5, n / 2, 0.9); }, first_vertex, from_apex, kEverywhere},
+    {"sphere", sphere_of, first_vertex, on_sphere},
+    {"cylinder", [](Index n) { return prism(n, n, 1); }, half_way_up, on_prism},
+    {"flat_torus", [](Index n) { return folded_flat_torus(n, 0.3, 3); }, first_vertex, from_origin},
+    {"cone", [](Index n) { return pyramid(5, n / 2, 0.9); }, first_vertex, from_origin},
 };
 
 struct Errors {
   double mean = 0, largest = 0;
 };
 
-class Convergence : public testing::TestWithParam<Shape> {
+class Convergence : public testing::TestWithParam<KnownShape> {
  protected:
   static constexpr Index kCoarse = 16, kFine = 64;
   static constexpr double kRefinements = 2;  // edges are halved twice

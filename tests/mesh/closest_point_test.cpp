@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "geotherm/path.h"
 #include "tests/support/shapes.h"
 
 namespace geotherm::test {
@@ -17,16 +18,6 @@ constexpr double kRoundOff = 1e-14;
 /// Corners (0,0,0), (4,0,0), (0,4,0).
 TriangleMesh one_triangle() {
   return *TriangleMesh::build({Vec3(0, 0, 0), Vec3(4, 0, 0), Vec3(0, 4, 0)}, {{0, 1, 2}});
-}
-
-Vec3 position_at(const TriangleMesh& mesh, const SurfacePoint& point) {
-  if (point.is_vertex()) return mesh.positions()[static_cast<std::size_t>(point.vertex)];
-  Vec3 p = Vec3::Zero();
-  const Face& face = mesh.faces()[static_cast<std::size_t>(point.face)];
-  for (std::size_t k = 0; k < 3; ++k) {
-    p += point.weights[k] * mesh.positions()[static_cast<std::size_t>(face[k])];
-  }
-  return p;
 }
 
 struct Case {

@@ -9,6 +9,7 @@
 #include <random>
 
 #include "bench/models/generate.h"
+#include "geotherm/path.h"
 #include "tests/support/mesh_zoo.h"
 #include "tests/support/shapes.h"
 
@@ -51,15 +52,6 @@ double first_of_all_faces(const TriangleMesh& mesh, const Vec3& origin, const Ve
     if (u >= 0 && v >= 0 && u + v <= 1 && t >= 0) first = std::min(first, t);
   }
   return static_cast<double>(first);
-}
-
-Vec3 position_at(const TriangleMesh& mesh, const SurfacePoint& point) {
-  Vec3 p = Vec3::Zero();
-  const Face& face = mesh.faces()[static_cast<std::size_t>(point.face)];
-  for (std::size_t k = 0; k < 3; ++k) {
-    p += point.weights[k] * mesh.positions()[static_cast<std::size_t>(face[k])];
-  }
-  return p;
 }
 
 /// Random points and rays around a mesh.

@@ -8,7 +8,6 @@
 #include <tuple>
 
 #include "tests/polyhedral/wave_fixture.h"
-#include "tests/support/mesh_zoo.h"
 
 namespace geotherm::test {
 namespace {
@@ -26,11 +25,8 @@ double farthest(const std::vector<double>& distances) {
 
 QueryOptions within(Reach reach) { return {.quality = false, .nearest = false, .reach = reach}; }
 
-class ReachOnTheZoo : public testing::TestWithParam<std::tuple<ZooMesh, MethodKind>> {
+class ReachOnTheZoo : public MethodOnMesh {
  protected:
-  MeshPtr mesh = std::get<0>(GetParam()).mesh();
-  MethodKind kind = std::get<1>(GetParam());
-  std::shared_ptr<const DistanceMethod> method = method_of(mesh, kind);
   SourceSet set = SourceSet::of_vertices({mesh->faces().front()[0]});
   std::vector<double> all = solve(*method, set, {.quality = false}).distances;
 };
@@ -74,10 +70,7 @@ TEST_P(ReachOnTheZoo, HasTheBitsOfTheWholeAnswerAtTargets) {
 
 INSTANTIATE_TEST_SUITE_P(Meshes, ReachOnTheZoo,
                          testing::Combine(testing::ValuesIn(zoo()), testing::ValuesIn(kAll)),
-                         [](const auto& each) {
-                           return std::string(std::get<0>(each.param).name) + "_" +
-                                  kind_name(std::get<1>(each.param));
-                         });
+                         name_and_kind);
 
 /// Of methods that know the nearest source and offsets, which are all but heat.
 class ReachesOfSources : public testing::TestWithParam<MethodKind> {};

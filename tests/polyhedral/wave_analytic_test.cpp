@@ -3,53 +3,25 @@
 // convergence.
 #include <gtest/gtest.h>
 
-#include <Eigen/Geometry>
 #include <cmath>
 #include <map>
 #include <tuple>
 
 #include "tests/polyhedral/wave_fixture.h"
+#include "tests/support/known_shapes.h"
 
 namespace geotherm::test {
 namespace {
 
-struct Shape {
-  const char* name;
-  Draft (*draft)(Index n);
-  Index (*source)(Index n);
-  double (*exact)(const Draft&, Index n, Index v);
-};
-
-double in_plane(const Draft& draft, Index n, Index v) {
-  return (draft.positions[v] - draft.positions[grid_vertex(n, n / 2, n / 2)]).norm();
-}
-double on_sphere(const Draft& draft, Index /*n*/, Index v) {
-  const Vec3 &a = draft.positions[0], &b = draft.positions[v];
-  return std::atan2(a.cross(b).norm(), a.dot(b));
-}
-double on_prism(const Draft& draft, Index n, Index v) {
-  const double along = static_cast<double>(v % n) / n;
-  return std::hypot(std::min(along, 1 - along), draft.positions[v].z() - 0.5);
-}
-/// From the corner where both folds meet; the fold keeps distances to it.
-double on_flat_torus(const Draft& draft, Index /*n*/, Index v) { return draft.positions[v].norm(); }
-double from_apex(const Draft& draft, Index /*n*/, Index v) { return draft.positions[v].norm(); }
-Index first_vertex(Index /*n*/) { return 0; }
-Index centre(Index n) { return grid_vertex(n, n / 2, n / 2); }
-Index half_way_up(Index n) { return n / 2 * n; }
-Draft sphere_of(Index n) { return sphere(static_cast<int>(std::lround(std::log2(n))) - 2); }
-
-const Shape kFlat[] = {
+const KnownShape kFlat[] = {
     {"plane", [](Index n) { return plane_grid(n, n, 1, 1); }, centre, in_plane},
     {"irregular_plane", [](Index n) { return jittered_plane(n, 0.2, 7); }, centre, in_plane},
     {"cylinder", [](Index n) { return prism(n, n, 1); }, half_way_up, on_prism},
-    {"flat_torus", [](Index n) { return folded_flat_torus(n, 0.2, 3); }, first_vertex,
-     on_flat_torus},
-    {"cone", [](Index n) { return pyramid(5, n / 2, 0.9); }, first_vertex, from_apex},
+    {"flat_torus", [](Index n) { return folded_flat_torus(n, 0.2, 3); }, first_vertex, from_origin},
+    {"cone", [](Index n) { return pyramid(5, n / 2, 0.9); }, first_vertex, from_origin},
 };
-void PrintTo(const Shape& shape, std::ostream* out) { *out << shape.name; }
 
-ErrorPercent errors_on(const Shape& shape, Index n, MethodKind kind) {
+ErrorPercent errors_on(const KnownShape& shape, Index n, MethodKind kind) {
   const Draft draft = shape.draft(n);
   const auto d = distances(finish(draft), kind, SourceSet::of_vertices({shape.source(n)}));
   std::vector<double> exact;
@@ -57,7 +29,7 @@ ErrorPercent errors_on(const Shape& shape, Index n, MethodKind kind) {
   return errors(d, exact);
 }
 
-class FlatSurfaces : public testing::TestWithParam<std::tuple<Shape, MethodKind>> {};
+class FlatSurfaces : public testing::TestWithParam<std::tuple<KnownShape, MethodKind>> {};
 
 // Per cent of the range. On a regular mesh every edge is complete before it is visited, and the fit
 // of a round wave has no error but rounding. Elsewhere some edges are visited before their samples
@@ -79,10 +51,7 @@ TEST_P(FlatSurfaces, AreExactWhereTheWaveIsRound) {
 
 INSTANTIATE_TEST_SUITE_P(Shapes, FlatSurfaces,
                          testing::Combine(testing::ValuesIn(kFlat), testing::ValuesIn(kRoundWaves)),
-                         [](const auto& each) {
-                           return std::get<0>(each.param).name +
-                                  ("_" + kind_name(std::get<1>(each.param)));
-                         });
+                         name_and_kind);
 
 // Exponents of the edge length over two halvings. Polyhedral and smooth distance differ by its
 // square; waves are nearer to the former than that. Fast marching is of first order but for the
@@ -95,7 +64,7 @@ const std::map<MethodKind, double> kRates = {{MethodKind::kWavefront, 1.5},
 class Refinement : public testing::TestWithParam<MethodKind> {};
 
 TEST_P(Refinement, OfASphereConverges) {
-  const Shape shape{"sphere", sphere_of, first_vertex, on_sphere};
+  const KnownShape shape{"sphere", sphere_of, first_vertex, on_sphere};
   const double coarse = errors_on(shape, 16, GetParam()).mean;
   const double fine = errors_on(shape, 64, GetParam()).mean;
   EXPECT_GE(std::log2(coarse / fine) / 2, kRates.at(GetParam()));

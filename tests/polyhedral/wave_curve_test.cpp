@@ -74,10 +74,7 @@ std::vector<ZooMesh> fine_planes() {
 INSTANTIATE_TEST_SUITE_P(Zoo, PlanarCurves,
                          testing::Combine(testing::ValuesIn(fine_planes()),
                                           testing::ValuesIn(kWaveKinds)),
-                         [](const auto& each) {
-                           return std::get<0>(each.param).name +
-                                  ("_" + kind_name(std::get<1>(each.param)));
-                         });
+                         name_and_kind);
 
 // The front of a straight curve from border to border is straight: exact for every method.
 TEST(StraightCurves, SendStraightFronts) {

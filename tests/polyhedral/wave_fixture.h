@@ -6,9 +6,11 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "geotherm/build_method.h"
+#include "tests/support/mesh_zoo.h"
 #include "tests/support/shapes.h"
 
 namespace geotherm::test {
@@ -37,5 +39,18 @@ ErrorPercent errors(std::span<const double> d, std::span<const double> exact);
 
 /// A name as GoogleTest wants it.
 std::string kind_name(MethodKind kind);
+
+/// The name of a parameter (something with a name, kind).
+inline constexpr auto name_and_kind = [](const auto& each) {
+  return std::get<0>(each.param).name + ("_" + kind_name(std::get<1>(each.param)));
+};
+
+/// A mesh of the zoo, and a method on it.
+class MethodOnMesh : public testing::TestWithParam<std::tuple<ZooMesh, MethodKind>> {
+ protected:
+  MeshPtr mesh = std::get<0>(GetParam()).mesh();
+  MethodKind kind = std::get<1>(GetParam());
+  std::shared_ptr<const DistanceMethod> method = method_of(mesh, kind);
+};
 
 }  // namespace geotherm::test

@@ -125,10 +125,7 @@ std::vector<ZooMesh> meshes() {
 INSTANTIATE_TEST_SUITE_P(Zoo, WaveInvariance,
                          testing::Combine(testing::ValuesIn(meshes()),
                                           testing::ValuesIn(kWaveKinds)),
-                         [](const auto& each) {
-                           return std::get<0>(each.param).name +
-                                  ("_" + kind_name(std::get<1>(each.param)));
-                         });
+                         name_and_kind);
 
 }  // namespace
 }  // namespace geotherm::test

@@ -8,7 +8,6 @@
 
 #include "tests/polyhedral/wave_fixture.h"
 #include "tests/support/compare.h"
-#include "tests/support/mesh_zoo.h"
 
 namespace geotherm::test {
 namespace {
@@ -19,11 +18,8 @@ constexpr QueryOptions kWithLabels = {.quality = false, .fields = false, .neares
 constexpr double kUndecided = 0.01;
 constexpr double kUndecidedFirstOrder = 0.06;
 
-class Labels : public testing::TestWithParam<std::tuple<ZooMesh, MethodKind>> {
+class Labels : public MethodOnMesh {
  protected:
-  MeshPtr mesh = std::get<0>(GetParam()).mesh();
-  MethodKind kind = std::get<1>(GetParam());
-  std::shared_ptr<const DistanceMethod> method = method_of(mesh, kind);
   std::vector<Index> sources = {2, mesh->vertex_count() / 3, mesh->vertex_count() / 2,
                                 mesh->vertex_count() - 3};
 };
@@ -52,11 +48,10 @@ TEST_P(Labels, DoNotChangeTheDistances) {
   EXPECT_EQ(solve(*method, set, kWithLabels).distances, solve(*method, set).distances);
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    Zoo, Labels, testing::Combine(testing::ValuesIn(zoo(kSmooth)), testing::ValuesIn(kWaveKinds)),
-    [](const auto& each) {
-      return std::get<0>(each.param).name + ("_" + kind_name(std::get<1>(each.param)));
-    });
+INSTANTIATE_TEST_SUITE_P(Zoo, Labels,
+                         testing::Combine(testing::ValuesIn(zoo(kSmooth)),
+                                          testing::ValuesIn(kWaveKinds)),
+                         name_and_kind);
 
 class LabelGroups : public testing::TestWithParam<MethodKind> {};
 

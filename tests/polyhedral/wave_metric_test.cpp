@@ -9,7 +9,6 @@
 
 #include "tests/polyhedral/wave_fixture.h"
 #include "tests/support/compare.h"
-#include "tests/support/mesh_zoo.h"
 
 namespace geotherm::test {
 namespace {
@@ -19,11 +18,8 @@ const std::map<MethodKind, double> kError = {{MethodKind::kWavefront, 0.006},
                                              {MethodKind::kWavefrontFine, 0.003},
                                              {MethodKind::kFastMarching, 0.05}};
 
-class WaveMetric : public testing::TestWithParam<std::tuple<ZooMesh, MethodKind>> {
+class WaveMetric : public MethodOnMesh {
  protected:
-  MeshPtr mesh = std::get<0>(GetParam()).mesh();
-  MethodKind kind = std::get<1>(GetParam());
-  std::shared_ptr<const DistanceMethod> method = method_of(mesh, kind);
   std::vector<Index> some = {1, mesh->vertex_count() / 4, mesh->vertex_count() / 2,
                              2 * mesh->vertex_count() / 3, mesh->vertex_count() - 2};
 
@@ -85,10 +81,7 @@ TEST_P(WaveMetric, DoesNotDependOnTheOrderOfSources) {
 INSTANTIATE_TEST_SUITE_P(Zoo, WaveMetric,
                          testing::Combine(testing::ValuesIn(zoo(kSmooth)),
                                           testing::ValuesIn(kWaveKinds)),
-                         [](const auto& each) {
-                           return std::get<0>(each.param).name +
-                                  ("_" + kind_name(std::get<1>(each.param)));
-                         });
+                         name_and_kind);
 
 }  // namespace
 }  // namespace geotherm::test

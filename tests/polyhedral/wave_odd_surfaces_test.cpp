@@ -69,10 +69,7 @@ TEST_P(AnyMesh, IsNoShorterThanStraightLines) {
 
 INSTANTIATE_TEST_SUITE_P(Zoo, AnyMesh,
                          testing::Combine(testing::ValuesIn(zoo()), testing::ValuesIn(kWaveKinds)),
-                         [](const auto& each) {
-                           return std::get<0>(each.param).name +
-                                  ("_" + kind_name(std::get<1>(each.param)));
-                         });
+                         name_and_kind);
 
 /// Pages that share the edges of a spine, x = 0; page p stands at its own angle.
 Draft book(Index pages, Index n) {

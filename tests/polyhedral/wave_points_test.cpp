@@ -6,9 +6,9 @@
 #include <random>
 #include <tuple>
 
+#include "geotherm/path.h"
 #include "tests/polyhedral/wave_fixture.h"
 #include "tests/support/compare.h"
-#include "tests/support/mesh_zoo.h"
 
 namespace geotherm::test {
 namespace {
@@ -20,27 +20,15 @@ constexpr double kRound = 3e-3;
 // First order: measured 0.085.
 constexpr double kPointsFirstOrder = 0.15;
 
-Vec3 position(const TriangleMesh& mesh, const SurfacePoint& point) {
-  if (point.is_vertex()) return mesh.positions()[point.vertex];
-  Vec3 at = Vec3::Zero();
-  for (int k = 0; k < 3; ++k) {
-    at += point.weights[k] * mesh.positions()[mesh.faces()[point.face][k]];
-  }
-  return at;
-}
-
-class PlanarPoints : public testing::TestWithParam<std::tuple<ZooMesh, MethodKind>> {
+class PlanarPoints : public MethodOnMesh {
  protected:
-  MeshPtr mesh = std::get<0>(GetParam()).mesh();
-  MethodKind kind = std::get<1>(GetParam());
-  std::shared_ptr<const DistanceMethod> method = method_of(mesh, kind);
   double tolerance = kind == MethodKind::kFastMarching ? kPointsFirstOrder : kRound;
 
   void expect_straight(const SurfacePoint& point) const {
     const auto d = solve(*method, {{point}, {}}).distances;
     std::vector<double> exact;
     for (const Vec3& p : mesh->positions()) {
-      exact.push_back((p - position(*mesh, point)).norm());
+      exact.push_back((p - position_at(*mesh, point)).norm());
     }
     EXPECT_LE(relative_difference(d, exact), tolerance) << "face " << point.face;
   }
@@ -87,10 +75,7 @@ std::vector<ZooMesh> convex_planes() {
 INSTANTIATE_TEST_SUITE_P(Zoo, PlanarPoints,
                          testing::Combine(testing::ValuesIn(convex_planes()),
                                           testing::ValuesIn(kWaveKinds)),
-                         [](const auto& each) {
-                           return std::get<0>(each.param).name +
-                                  ("_" + kind_name(std::get<1>(each.param)));
-                         });
+                         name_and_kind);
 
 // The same point named from either face of its edge is one source.
 TEST(PointsOnEdges, AreTheSameFromBothFaces) {
