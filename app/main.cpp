@@ -4,17 +4,23 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
+#include <chrono>
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
+#include <memory>
 #include <new>
+#include <string>
 #include <system_error>
 #include <thread>
 
 #include "app/cli/command_line.h"
 #include "app/cli/viewer_window.h"
 #include "app/session/ranks.h"
+#include "app/session/wording.h"
+#include "app/text/text.h"
+#include "solver/linear/mpi_module.h"
 #include "solver/mesh/output_file.h"
 
 namespace {
@@ -67,23 +73,37 @@ bool give_threads_their_stack() {
   return set;
 }
 
-int run(int argc, char** argv) {
-  try {
-    const std::unique_ptr<geotherm::app::Drawing> drawing = geotherm::app::make_drawing();
-    const std::unique_ptr<geotherm::app::ViewerWindow> window = geotherm::app::make_window();
-    return geotherm::app::run_command_line({argv + (argc > 0 ? 1 : 0), argv + argc}, *drawing,
-                                           *window);
-  } catch (const std::bad_alloc&) {
-    const bool rank = geotherm::app::launched_as().count > 1;
-    std::fprintf(stderr, "geotherm: error: not enough memory; try %s\n",
-                 rank ? "more ranks, or fewer on each machine" : "a smaller mesh or --backend cg");
-  } catch (const std::system_error& failure) {  // no thread could be started, most likely
-    std::fprintf(stderr, "geotherm: error: the system refuses: %s; try --threads 1\n",
-                 failure.what());
-  } catch (const std::exception& failure) {
-    std::fprintf(stderr, "geotherm: error: unexpected: %s; please report it\n", failure.what());
+/// One line, and the end of all ranks where there are several.
+int end_with(int code, const std::string& line) {
+  const geotherm::RankOfCount ours = geotherm::app::launched_as();
+  if (geotherm::mpi_is_started()) {
+    const double seconds = geotherm::app::seconds_for_others(ours.rank);
+    std::this_thread::sleep_for(std::chrono::duration<double>(seconds));
   }
-  return 1;
+  const std::string rank = ours.count > 1 ? "rank " + std::to_string(ours.rank) + ": " : "";
+  std::fprintf(stderr, "geotherm: error: %s%s\n", rank.c_str(), line.c_str());
+  geotherm::end_all_ranks(code);
+  return code;
+}
+
+int run(int argc, char** argv) {
+  using namespace geotherm::app;
+  try {
+    const std::unique_ptr<Drawing> drawing = make_drawing();
+    const std::unique_ptr<ViewerWindow> window = make_window();
+    return run_command_line({argv + (argc > 0 ? 1 : 0), argv + argc}, *drawing, *window);
+  } catch (const std::bad_alloc&) {
+    const bool rank = launched_as().count > 1;
+    return end_with(
+        1, std::string("not enough memory; try ") +
+               (rank ? "more ranks, or fewer on each machine" : "a smaller mesh or --backend cg"));
+  } catch (const UnheardError& unheard) {
+    return end_with(exit_code(unheard.error.code), one_line(told(unheard.error)));
+  } catch (const std::system_error& failure) {  // no thread could be started, most likely
+    return end_with(1, "the system refuses: " + std::string(failure.what()) + "; try --threads 1");
+  } catch (const std::exception& failure) {
+    return end_with(1, "unexpected: " + std::string(failure.what()) + "; please report it");
+  }
 }
 
 int run_on_enough_stack(int argc, char** argv) {

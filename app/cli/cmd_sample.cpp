@@ -184,8 +184,9 @@ Result<SampleFigures> sample(Model model, const SettingArguments& arguments, con
     return about(one_line(model.name), fits.error());
   }
   ModelSolver solver(model);
-  const auto ready =
-      ranks.agree_on(solver.prepare(task.options, part_of(progress, 0.0, kSetupShare)));
+  MethodOptions options = task.options;
+  options.strict = options.strict || !ranks.alone();  // samples have the bits of one backend
+  const auto ready = ranks.agree_on(solver.prepare(options, part_of(progress, 0.0, kSetupShare)));
   if (!ready) return ready.error();
   const Stopwatch watch;
   const bool checks = task.check.against != Check::kOff;
@@ -194,7 +195,7 @@ Result<SampleFigures> sample(Model model, const SettingArguments& arguments, con
   if (!points) return about_model(model.name, points.error());
   const double sampling_ms = watch.milliseconds();
   const double peak = peak_rss_mb();  // of the work, not of its check
-  const MeshReport mesh = inspect_mesh(*model.mesh);
+  const MeshReport mesh = ranks.is_first() ? inspect_mesh(*model.mesh) : MeshReport();
   SampleFigures figures{std::move(model),   mesh,        ready->method, task.options,
                         *std::move(points), sampling_ms, peak,          {}};
   figures.ranks = ranks.count();

@@ -215,7 +215,9 @@ Result<ManyFigures> solve_share(const ManySources& work, const SolveArguments& a
                                 const Progress& progress, const Announce& announce) {
   constexpr double kMethodShare = kSetupShare / 2;  // the other half is the check's
   ModelSolver solver(work.model);
-  auto ready = solver.prepare(work.options, part_of(progress, 0.0, kMethodShare));
+  MethodOptions options = work.options;
+  if (!work.ranks.alone()) options.strict = true;  // rows have the bits of one backend
+  auto ready = solver.prepare(options, part_of(progress, 0.0, kMethodShare));
   if (!ready) return ready.error();
   keep_freed_memory();  // from here on answers come and go
   ManyFigures figures;
@@ -231,6 +233,7 @@ Result<ManyFigures> solve_share(const ManySources& work, const SolveArguments& a
   }
   figures.method = std::move(ready->method);
   figures.options = ready->options;
+  figures.options.strict = work.options.strict;
   add_warnings(figures.warnings, figures.method->warnings());
   add_warnings(figures.warnings, work.sources.warnings);
 

@@ -77,6 +77,12 @@ Result<Ranks> Ranks::join() {
                {"use the mpirun of the MPI that this program is built with (Open MPI)"}};
 }
 
+double seconds_for_others(int rank) {
+  constexpr double kToBeEnded = 0.5;  // that a launcher takes to end all
+  constexpr int kMost = 10;
+  return kToBeEnded * std::min(rank, kMost);
+}
+
 std::vector<std::string> Ranks::exchange(const std::string& mine) const {
   if (alone()) return {mine};
   std::vector<std::string> all;
@@ -92,6 +98,10 @@ std::vector<std::string> Ranks::exchange(const std::string& mine) const {
 Result<std::vector<std::string>> Ranks::exchange_or_fail(const Result<std::string>& mine) const {
   if (alone() && !mine) return mine.error();
   if (alone()) return std::vector<std::string>{*mine};
+  // Others may be busy for long, or wait for what this rank will never send.
+  constexpr double kPatience = 2, kForEver = -1;
+  const double seconds = mine ? kForEver : kPatience + seconds_for_others(rank());
+  if (!(*mpi_module())->meet(seconds)) throw UnheardError{mine.error()};
   // A blank before what is said; the code of an error before that.
   const std::string code = mine ? "" : std::to_string(static_cast<int>(mine.error().code));
   std::vector<std::string> all = exchange(code + ' ' + (mine ? *mine : told(mine.error())));

@@ -26,6 +26,15 @@ Result<void> refuse_ranks(const std::string& what);
 /// have it.
 bool is_of_launcher(const std::string& variable);
 
+/// Thrown where the others do not hear of an error, because they work or wait elsewhere: the
+/// program says it and ends them all (end_all_ranks()).
+struct UnheardError {
+  Error error;
+};
+
+/// How long a rank lets those before it speak first, where several met the same at the same time.
+double seconds_for_others(int rank);
+
 /// The ranks of one command. What it offers is called by all of them, in the same order.
 class Ranks {
  public:
@@ -42,10 +51,11 @@ class Ranks {
   std::vector<std::string> exchange(const std::string& mine) const;
 
   /// The same, or the error of the lowest rank that has one instead, on all of them. Where one
-  /// waits in this and another in agree(), they hear of each other's error.
+  /// waits in this and another in agree(), they hear of each other's error. Throws UnheardError.
   Result<std::vector<std::string>> exchange_or_fail(const Result<std::string>& mine) const;
 
-  /// The error of the lowest rank that has one, on all of them: all go on or none does.
+  /// The error of the lowest rank that has one, on all of them: all go on or none does. Throws
+  /// UnheardError where others do not come to hear this rank's within seconds.
   Result<void> agree(const Result<void>& mine) const;
 
   /// The same for what has a value.

@@ -31,6 +31,7 @@ constexpr double kWorstRow = 1e-4;
 constexpr std::int32_t kLevel = 900;
 
 bool is_news(const WideNumber& now, const WideNumber& before) {
+  if (now.mantissa == before.mantissa && now.exponent == before.exponent) return false;
   if (now.mantissa == 0 || before.mantissa == 0) return now.mantissa != before.mantissa;
   const std::int32_t reference = std::max(now.exponent, before.exponent);
   const double a = now.relative_to(reference), b = before.relative_to(reference);
@@ -70,13 +71,22 @@ class Listener {
   }
   bool has_news() const { return has_news_; }
 
+  /// The exponent of the largest number that it would solve with: the nearest to a source.
+  std::int32_t top(const std::vector<WideNumber>& u) const {
+    std::int32_t top = sources_.empty() ? std::numeric_limits<std::int32_t>::min() : 1;
+    for (const Index row : block_.edge) {
+      const WideNumber& value = u[block_.part_vertex(row)];
+      if (value.mantissa != 0) top = std::max(top, value.exponent);
+    }
+    return top;
+  }
+
   /// Writes u of the own vertices.
   Result<void> solve(std::vector<WideNumber>& u) {
     has_news_ = false;
-    std::int32_t top = sources_.empty() ? std::numeric_limits<std::int32_t>::min() : 1;
+    const std::int32_t top = this->top(u);
     for (std::size_t k = 0; k < heard_.size(); ++k) {
       heard_[k] = u[block_.part_vertex(block_.edge[k])];
-      if (heard_[k].mantissa != 0) top = std::max(top, heard_[k].exponent);
     }
     std::map<std::int32_t, std::vector<std::size_t>> bands;  // of heard_
     if (!sources_.empty()) bands[(top - 1) / kBand];
@@ -151,6 +161,28 @@ class Listener {
   std::vector<Index> sources_;     ///< rows
   bool has_news_ = false;
 };
+
+/// Those that have heard something new solve once each, the nearest to a source first, and what
+/// they find is heard by the others of this rank at once: heat passes all of them in one round.
+Result<void> solve_in_turn(std::vector<Listener>& listeners, std::vector<WideNumber>& u,
+                           bool& any) {
+  std::vector<Listener*> left;
+  for (Listener& each : listeners) left.push_back(&each);
+  for (;;) {
+    Listener** next = nullptr;
+    std::int32_t most = 0;
+    for (Listener*& each : left) {
+      each->listen(u);
+      if (!each->has_news()) continue;
+      const std::int32_t top = each->top(u);
+      if (next == nullptr || top > most) next = &each, most = top;
+    }
+    if (next == nullptr) return {};
+    any = true;
+    if (auto done = (*next)->solve(u); !done) return done;
+    left.erase(left.begin() + (next - left.data()));
+  }
+}
 
 /// Vertices that others own and these rows need.
 std::vector<Index> beyond(const MeshPart& part, const std::vector<char>& wanted) {
@@ -272,12 +304,7 @@ Result<SharedHeat> diffuse_over_ranks(const SharedTask& task, std::span<const Me
   const Halo edge(task.ranks, task.part, beyond(task.part, at_edge));
   for (;; ++out.rounds) {
     bool any = false;
-    Result<void> done;
-    for (Listener& each : listeners) {
-      if (!each.has_news() || !done) continue;
-      any = true;
-      done = each.solve(out.u);
-    }
+    Result<void> done = solve_in_turn(listeners, out.u, any);
     if (done && out.rounds > kMaxHeatRounds) {
       done = Error{ErrorCode::kNumericalFailure,
                    "blocks of the heat step do not come to an end within " +
@@ -289,7 +316,6 @@ Result<SharedHeat> diffuse_over_ranks(const SharedTask& task, std::span<const Me
     }
     if (task.ranks.most(any ? 1 : 0) == 0) break;
     edge.fetch(task.ranks, out.u);
-    for (Listener& each : listeners) each.listen(out.u);
   }
   out.beside = beyond(task.part, beside);
   Halo(task.ranks, task.part, out.beside).fetch(task.ranks, out.u);

@@ -87,4 +87,8 @@ void finish_mpi() {
   (*mpi_module())->finish();
 }
 
+void end_all_ranks(int exit_code) {
+  if (mpi_is_started()) (*mpi_module())->end_all(exit_code);
+}
+
 }  // namespace geotherm

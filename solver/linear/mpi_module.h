@@ -47,11 +47,17 @@ struct MpiModule {
 
   /// x = M^-1 b by conjugate gradients, to this residual relative to b's.
   const char* (*solve)(void* solver, const double* b, double* x, double tolerance, int* iterations);
+
+  /// Waits until all ranks have called it, for so many seconds at most (negative: for ever). False:
+  /// they have not; nothing but end_all() may follow.
+  bool (*meet)(double seconds);
+  /// Ends this process and all other ranks, whatever they are doing.
+  void (*end_all)(int exit_code);
 };
 
-/// The function that a module has, const MpiModule* geotherm_mpi_module_2(): the number grows where
+/// The function that a module has, const MpiModule* geotherm_mpi_module_3(): the number grows where
 /// the table changes.
-inline constexpr const char* kMpiModuleEntry = "geotherm_mpi_module_2";
+inline constexpr const char* kMpiModuleEntry = "geotherm_mpi_module_3";
 
 /// Whether there is such a library: the one that the variable GEOTHERM_MPI_MODULE names (any other
 /// word: none), else the one beside the installed program, else that of the build. Cost: that of
@@ -75,5 +81,8 @@ bool mpi_is_started();
 
 /// Ends MPI where it was started; nothing of it may be used any more.
 void finish_mpi();
+
+/// Where MPI was started, ends this process and all other ranks, which wait for it.
+void end_all_ranks(int exit_code);
 
 }  // namespace geotherm

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The library geotherm-mpi.so: the one place that knows MPI and PETSc.
 #include <petscksp.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cstdlib>
@@ -11,6 +12,9 @@
 #include "solver/linear/mpi_module.h"
 
 namespace {
+
+/// Of all ranks, for meet() alone.
+MPI_Comm meeting = MPI_COMM_NULL;
 
 /// Kept until the next problem.
 const char* told(std::string text) {
@@ -46,6 +50,7 @@ const char* start_all(int* rank, int* count) {
   }
   MPI_Comm_rank(MPI_COMM_WORLD, rank);
   MPI_Comm_size(MPI_COMM_WORLD, count);
+  MPI_Comm_dup(MPI_COMM_WORLD, &meeting);
   // Each process solves for itself, and signals are the program's: PETSc would leave none of its
   // handlers, which remove files that were begun.
   PETSC_COMM_WORLD = MPI_COMM_SELF;
@@ -125,6 +130,21 @@ void combine(double* values, std::int64_t count, geotherm::MpiModule::Combinatio
                   MPI_DOUBLE, operation, MPI_COMM_WORLD);
   }
 }
+
+bool meet(double seconds) {
+  constexpr useconds_t kBetweenLooks = 1000;
+  MPI_Request request = MPI_REQUEST_NULL;
+  MPI_Ibarrier(meeting, &request);
+  int there = 0;
+  if (seconds < 0) there = MPI_Wait(&request, MPI_STATUS_IGNORE) == MPI_SUCCESS;
+  for (const double end = MPI_Wtime() + seconds; !there && MPI_Wtime() < end;) {
+    MPI_Test(&request, &there, MPI_STATUS_IGNORE);
+    if (!there) ::usleep(kBetweenLooks);
+  }
+  return there != 0;
+}
+
+void end_all(int exit_code) { MPI_Abort(MPI_COMM_WORLD, exit_code); }
 
 void finish() {
   PetscFinalize();
@@ -225,9 +245,9 @@ const char* solve(void* solver, const double* b, double* x, double tolerance, in
 }  // namespace
 
 extern "C" __attribute__((visibility("default"))) const geotherm::MpiModule*
-geotherm_mpi_module_2() {
+geotherm_mpi_module_3() {
   static constexpr geotherm::MpiModule kModule = {
-      start_all,   exchange,           swap,        combine, finish,
-      make_solver, make_shared_solver, free_solver, solve};
+      start_all,          exchange,    swap,  combine, finish, make_solver,
+      make_shared_solver, free_solver, solve, meet,    end_all};
   return &kModule;
 }

@@ -67,8 +67,27 @@ PROGRAM=$program refused 2 'geotherm-mpi' sh of_rank.sh lone
 # Messages in shared memory would be files that are too large, too.
 OMPI_MCA_btl=self,tcp PROGRAM=$program refused 2 'cannot be written' sh of_rank.sh full
 [ -z "$(ls | grep rows.npy)" ] || fail "something of rows.npy was left: $(ls)"
-# A signal to mpirun ends all and leaves nothing.
 "$program" generate bunny --faces 40000 -o many.ply >/dev/null
+# So does memory that ends on one rank, while the other works or waits for it. With less address space than
+# MPI itself takes, which differs between machines, nobody of this program speaks.
+cat >little.sh <<'SH'
+[ "$OMPI_COMM_WORLD_RANK" = 1 ] && ulimit -v "$KILOBYTES"
+exec "$@"
+SH
+export KILOBYTES=210000
+for job in 'solve many.ply -s random:640 --each' 'solve many.ply -s 0 --backend petsc' 'sample many.ply -n 20'; do
+  for _ in $(seq 60); do
+    # shellcheck disable=SC2086
+    if timeout 60 mpirun --oversubscribe -q -n 2 sh little.sh "$program" $job --no-check --threads 1 -o rows.npy >out 2>said; then
+      fail "$job: memory enough with $KILOBYTES kB"
+    fi
+    if grep -aq 'geotherm: error.*memory' said; then break; fi
+    KILOBYTES=$((KILOBYTES + 5000))
+  done
+  [ "$(grep -ac 'geotherm: error' said)" = 1 ] || { cat said; fail "$job with $KILOBYTES kB: not one line"; }
+  [ -z "$(find . -name 'rows.npy*')" ] || fail "$job: something was left: $(ls)"
+done
+# A signal to mpirun ends all and leaves nothing.
 for signal in TERM INT; do
   mpirun --oversubscribe -q -n 2 "$program" solve many.ply -s random:9000 --each --no-check --threads 1 -o rows.npy >/dev/null 2>&1 &
   launcher=$!
