@@ -196,20 +196,16 @@ void turn_switch(Frame& frame, Action action) {
 
 }  // namespace
 
-namespace {
-
-/// Where the figures will stand.
-void show_compare(Frame& frame) {
-  frame.ui.layout.open[kCompareSection] = true;
-  frame.ui.shows_compare = 3;
+void show_figures(Frame& frame, const char* section) {
+  frame.ui.layout.open[section] = true;
+  frame.ui.sought = section;
+  frame.ui.seeks = 3;
   if (!is_on(frame, Action::kRightPanel)) turn_switch(frame, Action::kRightPanel);
 }
 
-}  // namespace
-
 void perform(Frame& frame, Action action) {
   if (!is_possible(frame, action)) return;
-  if (action == Action::kCompare) show_compare(frame);
+  if (action == Action::kCompare) show_figures(frame, kCompareSection);
   if (auto command = command_of(frame, action)) return frame.send(*std::move(command));
   if (const auto purpose = find_in(kPurposes, action))
     return frame.ui.dialog.ask(*purpose, frame.state());

@@ -68,6 +68,9 @@ struct Frame;
 /// Sends its command, opens its dialog or turns its switch. What is not possible now does nothing.
 void perform(Frame& frame, Action action);
 
+/// Opens a section of the right side bar, and brings it into sight.
+void show_figures(Frame& frame, const char* section);
+
 /// Whether it would do anything now.
 bool is_possible(const Frame& frame, Action action);
 

@@ -9,6 +9,7 @@
 #include "app/session/check.h"
 #include "app/session/wording.h"
 #include "app/text/text.h"
+#include "ui/action.h"
 #include "ui/source_edit.h"
 #include "ui/widgets.h"
 
@@ -165,7 +166,8 @@ void draw_error(Frame& frame) {
           .c_str());
   ImGui::PopStyleColor();
   frame.mark("error");
-  draw_tip(frame, sentence(app::accuracy_line(report)));
+  if (ImGui::IsItemClicked()) show_figures(frame, kErrorSection);
+  draw_tip(frame, sentence(app::accuracy_line(report)) + " A click shows its figures.");
 }
 
 struct State {

@@ -91,7 +91,8 @@ struct UiState {
   bool scrubs = false;   ///< the timeline is dragged
   LogForm log;
   std::set<std::string> left_out;  ///< backends that are not to be compared
-  int shows_compare = 0;           ///< frames in which their comparison is brought into sight
+  std::string_view sought;         ///< the section that is brought into sight
+  int seeks = 0;                   ///< frames in which it is
   std::size_t compared = 0;        ///< rows of it in the last frame
   std::vector<Notice> notices;
   std::size_t notified = 0;  ///< lines of the log that notices were made of

@@ -114,7 +114,7 @@ std::optional<app::FacePoint> point_at(const TriangleMesh& mesh, Index vertex) {
 }  // namespace
 
 void draw_error_panel(Frame& frame) {
-  if (!draw_section(frame, "Exact error")) return;
+  if (!draw_section(frame, kErrorSection)) return;
   draw_setting(frame, *app::find_setting("check"));
   const app::Answer* answer = frame.answer();
   if (!answer || !answer->error) {
@@ -232,11 +232,10 @@ void draw_compare_panel(Frame& frame) {
   const bool open = draw_section(frame, kCompareSection, false);
   const auto& compare = frame.session.compare();
   UiState& ui = frame.ui;
-  // Asked for, and again when there is more to be seen.
-  if (std::exchange(ui.compared, compare.rows.size()) < compare.rows.size()) ui.shows_compare = 2;
-  if (ui.shows_compare > 0) {
-    --ui.shows_compare;
-    ImGui::SetScrollHereY(0);
+  // It has come into sight when it was asked for, and does again when there is more to be seen.
+  if (std::exchange(ui.compared, compare.rows.size()) < compare.rows.size()) {
+    ui.sought = kCompareSection;
+    ui.seeks = 2;
     ui.awake = std::max(ui.awake, 2);
   }
   if (!open) return;

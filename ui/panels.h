@@ -29,6 +29,7 @@ void draw_quality_panel(Frame& frame);
 void draw_error_panel(Frame& frame);
 void draw_point_panel(Frame& frame);
 void draw_compare_panel(Frame& frame);
+inline constexpr const char* kErrorSection = "Exact error";
 inline constexpr const char* kCompareSection = "Compare backends";
 
 /// What the log window holds.

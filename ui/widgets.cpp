@@ -69,6 +69,11 @@ bool draw_section(Frame& frame, const char* name, bool open_at_first) {
   ImGui::PopStyleColor();
   frame.mark("");
   if (is_open != was_open) open[name] = is_open;
+  if (frame.ui.seeks > 0 && frame.ui.sought == name) {
+    --frame.ui.seeks;
+    ImGui::SetScrollHereY(0);
+    frame.ui.awake = std::max(frame.ui.awake, 2);
+  }
   return is_open;
 }
 

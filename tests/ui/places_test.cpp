@@ -156,6 +156,22 @@ TEST_F(AskedComparison, OfBackendsComesIntoSight) {
   EXPECT_LT(at.y, ImGui::GetIO().DisplaySize.y);
 }
 
+class AskedError : public UiTest {};
+
+TEST_F(AskedError, ComesIntoSight) {
+  Layout layout;
+  layout.right = false;
+  layout.open = {{"Exact error", false}};
+  restart(layout, 1);
+  open_square();
+  frames(3);
+  EXPECT_FALSE(is_drawn("Exact error/show"));
+  click_item("Status/error");
+  frames(4);
+  ASSERT_TRUE(is_drawn("Exact error/show"));
+  EXPECT_LT(middle_of("Exact error/show").y, ImGui::GetIO().DisplaySize.y);
+}
+
 class BarEdges : public UiTest {};
 
 TEST_F(BarEdges, ResizeTheSideBars) {
