@@ -58,11 +58,11 @@ Result<void> expect_outputs(const SampleArguments& arguments, Outputs& outputs) 
   const std::string& samples = arguments.samples;
   if (!samples.empty()) {
     const std::string extension = io::file_extension(samples);
-    if (samples != "-" && extension != ".csv" && extension != ".npy") {
-      return Error{
-          ErrorCode::kNotAvailable,
-          "--samples: " + one_line(samples) + ": the list of samples is written as .csv or .npy",
-          {"choose another name"}};
+    if (samples != "-" && extension != ".csv" && extension != ".npy" && extension != ".txt") {
+      return Error{ErrorCode::kNotAvailable,
+                   "--samples: " + one_line(samples) +
+                       ": the list of samples is written as .csv, .npy or .txt",
+                   {"choose another name"}};
     }
     if (auto expected = outputs.expect(samples, "--samples"); !expected) return expected;
   }
@@ -237,7 +237,9 @@ Result<void> write_samples(const std::string& path, const SampleFigures& figures
     standard_output = samples_csv(figures);
     return {};
   }
-  if (io::file_extension(path) == ".csv") return write_file(path, samples_csv(figures));
+  const std::string extension = io::file_extension(path);
+  if (extension == ".csv") return write_file(path, samples_csv(figures));
+  if (extension == ".txt") return write_file(path, samples_as_sources(figures));
   const std::size_t count = figures.points.samples.size();
   auto file = NpyRows::open(path, count, sample_row(figures, 0).size(), NpyType::kFloat64);
   if (!file) return file.error();
@@ -270,8 +272,8 @@ void add_sample_options(CLI::App& command, SampleArguments& arguments) {
   command
       .add_option("--samples", arguments.samples,
                   "the samples in their order: vertex, position, distance to those before, radius "
-                  "covered with it (relaxed: face, weights, position); .csv .npy, or - for CSV on "
-                  "standard output")
+                  "covered with it (relaxed: face, weights, position): .csv .npy, or - for CSV on "
+                  "standard output; .txt is a source file of other commands")
       ->type_name("FILE");
   command.add_option("--json", arguments.json, "every figure as JSON; - is standard output")
       ->type_name("FILE");
@@ -284,7 +286,8 @@ void add_sample_options(CLI::App& command, SampleArguments& arguments) {
       "side.\n"
       "Examples:\n"
       "  geotherm sample bunny -n 100 -o cells.ply --samples samples.csv\n"
-      "  geotherm sample bunny -n 100 --relax 30 -o cells.ply --samples centres.csv\n"
+      "  geotherm sample bunny -n 100 --relax 30 -o cells.ply --samples centres.txt\n"
+      "  geotherm bunny --source-file centres.txt --view regions\n"
       "  geotherm sample bunny -n 5 --first 0 --method wavefront --json -");
 }
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "app/session/sources.h"
 #include "app/session/wording.h"
 #include "app/text/text.h"
 #include "geotherm/path.h"
@@ -160,6 +161,19 @@ std::string samples_csv(const SampleFigures& f) {
     text += std::to_string(i) + ',' + std::to_string(static_cast<Index>(row.front()));
     for (std::size_t c = 1; c < row.size(); ++c) text += ',' + number_text(row[c]);
     text += '\n';
+  }
+  return text;
+}
+
+std::string samples_as_sources(const SampleFigures& f) {
+  std::string text;
+  for (std::size_t i = 0; i < f.points.samples.size(); ++i) {
+    SourceSpec source = VertexList{{f.points.samples[i].vertex}};
+    if (f.relaxed) {
+      const SurfacePoint point = in_face(*f.model.mesh, f.relaxed->points[i]);
+      source = FacePoint{point.face, point.weights};
+    }
+    text += to_text(source) + '\n';
   }
   return text;
 }

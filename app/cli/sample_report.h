@@ -47,7 +47,10 @@ std::string sample_table(const SampleFigures& figures);
 /// they were relaxed.
 std::string samples_csv(const SampleFigures& figures);
 
-/// The numbers of a line of that but for the first, as a row of a .npy array.
+/// A sample a line, as `--source-file` reads it.
+std::string samples_as_sources(const SampleFigures& figures);
+
+/// The numbers of a line of samples_csv() but for the first, as a row of a .npy array.
 std::vector<double> sample_row(const SampleFigures& figures, std::size_t sample);
 
 }  // namespace geotherm::app

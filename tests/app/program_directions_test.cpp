@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "tests/app/npy_file.h"
 #include "tests/app/program_fixture.h"
 
 namespace geotherm::test {
@@ -215,6 +216,17 @@ TEST_F(Program, RelaxedSamplesHaveTheEnergyOfEachStep) {
   double sum = 0;
   for (const Json& point : relaxation["points"]) sum += point["cell"].get<double>();
   EXPECT_EQ(sum, report["model"]["vertices"].get<double>());
+}
+
+TEST_F(Program, RelaxedSamplesAreSourcesOfOtherCommands) {
+  run({"sample", "bunny", "-n", "12", "--relax", "2", "--no-check", "-o", "cells.npy", "--samples",
+       "centres.txt"});
+  run({"solve", "bunny", "--source-file", "centres.txt", "--method", "wavefront", "-o", "d.npy"});
+  const auto cells = npy_values<double>(bytes_of(folder.path("cells.npy")));  // distance, nearest
+  const auto d = npy_values<double>(bytes_of(folder.path("d.npy")));
+  ASSERT_EQ(cells.size(), 2 * d.size());
+  constexpr double kRoundOff = 1e-12;
+  for (std::size_t v = 0; v < d.size(); ++v) EXPECT_NEAR(d[v], cells[2 * v], kRoundOff);
 }
 
 TEST_F(Program, SourcesThatAreMaskedOutAreSaidToBe) {

@@ -105,7 +105,7 @@ const std::vector<Refusal>& refusals() {
        2,
        {"vertex 3 belongs to no face"}},
       {"SampleObj", {"sample", "bunny", "-n", "2", "-o", "a.obj"}, 2, {"no value per vertex"}},
-      {"SampleList", {"sample", "bunny", "-n", "2", "--samples", "a.ply"}, 2, {".csv or .npy"}},
+      {"SampleList", {"sample", "bunny", "-n", "2", "--samples", "a.ply"}, 2, {".csv, .npy or .txt"}},
       {"SampleNoFolder", {"sample", "bunny", "-n", "2", "-o", "no/a.csv"}, 1, {"no folder"}},
       {"SampleLate",
        {"sample", "bunny", "-n", "2", "-o", "a.csv", "--samples", "/proc/a.csv"},
