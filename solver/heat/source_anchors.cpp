@@ -318,7 +318,7 @@ Result<SourceAnchors> place_sources(const Surface& surface, const SourceSet& sou
 }
 
 bool has_many(std::span<const SourceAnchors> sets) {
-  constexpr std::size_t kFew = 32;
+  constexpr std::size_t kFew = 128;
   return std::ranges::any_of(sets, [](const auto& set) { return set.anchors.size() > kFew; });
 }
 
