@@ -167,7 +167,7 @@ void draw_error(Frame& frame) {
   ImGui::PopStyleColor();
   frame.mark("error");
   if (ImGui::IsItemClicked()) show_figures(frame, kErrorSection);
-  draw_tip(frame, sentence(app::accuracy_line(report)) + " A click shows its figures.");
+  draw_tip(frame, sentence(app::accuracy_line(report)) + ". A click shows its figures.");
 }
 
 struct State {
