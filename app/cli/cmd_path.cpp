@@ -308,7 +308,7 @@ void add_path_options(CLI::App& command, PathArguments& arguments) {
                   "what it follows: geodesic (default: the shortest path, straight across faces), "
                   "distance (-grad phi), heat (X of the heat method)")
       ->type_name("NAME");
-  add_line_file_options(command, arguments.files, arguments.settings, "the path");
+  add_line_file_options(command, arguments.files, arguments.settings, "the paths");
   command
       .add_option("--lengths", arguments.lengths,
                   "where the lengths go: .csv (from, to, points between, length), .npy (lengths "
