@@ -113,9 +113,10 @@ Result<Command> read_extend_stroke(WordReader& reader) {
   return Command(command::ExtendStroke{*std::move(points)});
 }
 
-Result<Command> read_sequence(WordReader& reader) {
+template <class Kind>
+Result<Command> with_path(WordReader& reader) {
   const std::string& path = reader.next();
-  return Command(command::ShowSequence{path == "none" ? "" : path});
+  return Command(Kind{path == "none" ? "" : path});
 }
 
 Result<Command> read_frame(WordReader& reader) {
@@ -131,10 +132,16 @@ Result<Command> read_switch(WordReader& reader) {
   return Command(Kind{*on == 0});
 }
 
-Result<Command> read_orbit(WordReader& reader) {
+template <class Kind, std::size_t... k>
+Result<Command> of_numbers(WordReader& reader, std::index_sequence<k...>) {
   const auto n = all_numbers(reader);
   if (!n) return n.error();
-  return Command(command::Orbit{(*n)[0], (*n)[1]});
+  return Command(Kind{(*n)[k]...});
+}
+
+template <class Kind, std::size_t kCount>
+Result<Command> with_numbers(WordReader& reader) {
+  return of_numbers<Kind>(reader, std::make_index_sequence<kCount>());
 }
 
 Result<Command> read_zoom(WordReader& reader) {
@@ -144,18 +151,6 @@ Result<Command> read_zoom(WordReader& reader) {
   const auto n = all_numbers(reader);
   if (!n) return n.error();
   return Command(n->empty() ? command::Zoom{*factor} : command::Zoom{*factor, (*n)[0], (*n)[1]});
-}
-
-Result<Command> read_pan(WordReader& reader) {
-  const auto n = all_numbers(reader);
-  if (!n) return n.error();
-  return Command(command::Pan{(*n)[0], (*n)[1]});
-}
-
-Result<Command> read_centre(WordReader& reader) {
-  const auto n = all_numbers(reader);
-  if (!n) return n.error();
-  return Command(command::Centre{(*n)[0], (*n)[1], (*n)[2]});
 }
 
 Result<Command> read_place(WordReader& reader) {
@@ -197,11 +192,6 @@ Result<Command> read_source_centre(WordReader& reader) {
   if (!kind) return kind.error();
   if (*kind == 2) return Command(command::ShowCentre{});
   return Command(command::ShowCentre{static_cast<CentreKind>(*kind)});
-}
-
-Result<Command> read_field(WordReader& reader) {
-  const std::string& path = reader.next();
-  return Command(command::ShowField{path == "none" ? "" : path});
 }
 
 Result<Command> read_max_distance(WordReader& reader) {
@@ -255,14 +245,14 @@ const Form kForms[] = {
     {"sculpt push", "RADIUS STRENGTH POINT...", 3, kAny, read_sculpt<SculptTool::kPush>},
     {"sculpt smooth", "RADIUS STRENGTH POINT...", 3, kAny, read_sculpt<SculptTool::kSmooth>},
     {"sculpt extend", "POINT...", 1, kAny, read_extend_stroke},
-    {"sequence", "FRAMES|none", 1, 1, read_sequence},
+    {"sequence", "FRAMES|none", 1, 1, with_path<command::ShowSequence>},
     {"frame", "INDEX", 1, 1, read_frame},
     {"play", "on|off", 1, 1, read_switch<command::Play>},
     {"loop", "on|off", 1, 1, read_switch<command::Loop>},
-    {"camera orbit", "AZIMUTH ELEVATION", 2, 2, read_orbit},
+    {"camera orbit", "AZIMUTH ELEVATION", 2, 2, with_numbers<command::Orbit, 2>},
     {"camera zoom", "FACTOR [RIGHT UP]", 1, 3, read_zoom},
-    {"camera pan", "RIGHT UP", 2, 2, read_pan},
-    {"camera centre", "X Y Z", 3, 3, read_centre},
+    {"camera pan", "RIGHT UP", 2, 2, with_numbers<command::Pan, 2>},
+    {"camera centre", "X Y Z", 3, 3, with_numbers<command::Centre, 3>},
     {"camera place", "AZIMUTH ELEVATION ZOOM RIGHT UP", 5, 5, read_place},
     {"camera frame", "", 0, 0, plain<command::Frame>},
     {"rotate", "on|off", 1, 1, read_switch<command::Rotate>},
@@ -273,7 +263,7 @@ const Form kForms[] = {
     {"flip", "", 0, 0, plain<command::Flip>},
     {"pick", "face:ID:b0:b1:b2|none", 1, 1, read_pick},
     {"target", "POINT|none", 1, 1, read_target},
-    {"field", "FILE|none", 1, 1, read_field},
+    {"field", "FILE|none", 1, 1, with_path<command::ShowField>},
     {"max-distance", "R|none", 1, 1, read_max_distance},
     {"compare", "[all|NAME,NAME...]", 0, 1, read_compare},
     {"save picture", "FILE [WxH] [panels]", 1, 3, read_save_picture},

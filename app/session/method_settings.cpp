@@ -252,26 +252,22 @@ std::vector<Setting> method_settings() {
        .help = "a backend that fails is an error; otherwise the next one takes over",
        .get = [](const State& s) { return switch_text(s.options.strict); },
        .set = [](State& s, const Text& t) { return store(parse_switch(t), s.options.strict); }},
-      {.name = "threads",
-       .kind = kNumber,
-       .value_name = "N",
-       .help = "threads that work at once; 0: one a core",
-       .get = [](const State& s) { return std::to_string(s.options.threads); },
-       .set = [](State& s, const Text& t) { return store(parse_threads(t), s.options.threads); }},
-      {.name = "refine",
-       .kind = kNumber,
-       .value_name = "N",
-       .help = "cuts each face of a mesh into four N times, up to 6, before anything is solved: "
-               "4^N times the "
-               "faces, memory and time; the output keeps the model's vertices",
-       .detail = "Each time there are four times as many faces to solve on, and less error; the "
-                 "distances shown are those at the model's own vertices.",
-       .get = [](const State& s) { return std::to_string(s.options.refine); },
-       .set = [](State& s, const Text& t) { return store(parse_refine(t), s.options.refine); },
-       .values =
-           [] {
-             return Names{"0", "1", "2", "3"};
-           }},
+      number<&MethodOptions::threads, parse_threads>(
+          {.name = "threads",
+           .value_name = "N",
+           .help = "threads that work at once; 0: one a core"}),
+      number<&MethodOptions::refine, parse_refine>(
+          {.name = "refine",
+           .value_name = "N",
+           .help = "cuts each face of a mesh into four N times, up to 6, before anything is "
+                   "solved: 4^N times the faces, memory and time; the output keeps the model's "
+                   "vertices",
+           .detail = "Each time there are four times as many faces to solve on, and less error; "
+                     "the distances shown are those at the model's own vertices.",
+           .values =
+               [] {
+                 return Names{"0", "1", "2", "3"};
+               }}),
       choice<&ModelReading::domain>(
           {.name = "domain",
            .group = kModel,

@@ -11,6 +11,7 @@
 #include "app/session/state.h"
 #include "geotherm/error.h"
 #include "geotherm/names.h"
+#include "solver/core/text.h"
 
 // The one table of settings. An entry makes the command-line option, its line of help, the command
 // of scripts and its completion, the row of the panel, the JSON and the texts of pictures.
@@ -98,6 +99,23 @@ Setting choice(Setting setting) {
     return store(parse<Value>(text), member_of(s, kMember));
   };
   setting.values = all_names<Value>;
+  return setting;
+}
+
+/// A setting that is a number, whole or not, as `kParse` reads it.
+template <auto kMember, auto kParse>
+Setting number(Setting setting) {
+  setting.kind = SettingKind::kNumber;
+  setting.get = [](const ViewerState& s) {
+    if constexpr (std::is_integral_v<std::remove_cvref_t<decltype(member_of(s, kMember))>>) {
+      return std::to_string(member_of(s, kMember));
+    } else {
+      return number_text(member_of(s, kMember));
+    }
+  };
+  setting.set = [](ViewerState& s, const std::string& text) {
+    return store(kParse(text), member_of(s, kMember));
+  };
   return setting;
 }
 
