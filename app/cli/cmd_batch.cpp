@@ -255,11 +255,7 @@ Result<CommandOutput> run_batch(const BatchArguments& arguments, const Progress&
   std::string format = arguments.format.empty() ? "npy" : arguments.format;
   if (format.starts_with('.')) format.erase(0, 1);
   Outputs outputs;
-  if (!arguments.json.empty()) {
-    if (auto expected = outputs.expect(arguments.json, "--json"); !expected) {
-      return expected.error();
-    }
-  }
+  if (auto fits = expect_report(arguments.json, outputs); !fits) return fits.error();
   const auto begin = [&]() -> Result<std::vector<BatchTask>> {
     auto tasks = batch_tasks(arguments.models, arguments.folder, format, options);
     if (!tasks) return tasks;
@@ -284,36 +280,33 @@ Result<CommandOutput> run_batch(const BatchArguments& arguments, const Progress&
   if (!ranks->is_first()) return out;
   if (auto tidied = manifest.tidy(); !tidied) return tidied.error();
   const double seconds = watch.milliseconds() / 1000;
-  if (!arguments.json.empty()) {
-    const Json json = {{"batch",
-                        {{"meshes", sums.meshes},
-                         {"done", sums.done},
-                         {"done_before", sums.before},
-                         {"refused", sums.refused},
-                         {"ranks", ranks->count()},
-                         {"seconds", seconds},
-                         {"manifest", manifest.path()}}}};
-    const auto written = outputs.write_text(arguments.json, report_text(json), out.text);
-    if (!written) return written.error();
-  }
-  if (!outputs.uses_stdout()) {
-    TextTable table({{"", TextTable::Align::kLeft}, {"", TextTable::Align::kLeft}});
-    table.add_row({"models", grouped(sums.meshes)});
-    table.add_row({"done", grouped(sums.done) + ", " + grouped(sums.before) + " before"});
-    table.add_row({"refused", grouped(sums.refused)});
-    for (const std::string& reason : sums.reasons) table.add_row({"", reason});
-    table.add_row({"time", seconds_in_words(seconds)});
-    table.add_row({"manifest", one_line(manifest.path())});
-    out.text = table.text();
-  }
+  const auto report = [&]() -> Json {
+    return {{"batch",
+             {{"meshes", sums.meshes},
+              {"done", sums.done},
+              {"done_before", sums.before},
+              {"refused", sums.refused},
+              {"ranks", ranks->count()},
+              {"seconds", seconds},
+              {"manifest", manifest.path()}}}};
+  };
+  const auto table = [&] {
+    TextTable rows({{"", TextTable::Align::kLeft}, {"", TextTable::Align::kLeft}});
+    rows.add_row({"models", grouped(sums.meshes)});
+    rows.add_row({"done", grouped(sums.done) + ", " + grouped(sums.before) + " before"});
+    rows.add_row({"refused", grouped(sums.refused)});
+    for (const std::string& reason : sums.reasons) rows.add_row({"", reason});
+    rows.add_row({"time", seconds_in_words(seconds)});
+    rows.add_row({"manifest", one_line(manifest.path())});
+    return rows.text();
+  };
   if (sums.refused > 0) {
     out.failure = Error{ErrorCode::kBadFile,
                         grouped(sums.refused) + " of " + counted(sums.meshes, "model", "models") +
                             " could not be solved",
                         {"see " + one_line(manifest.path()) + ", and start it again to try those"}};
   }
-  out.made = outputs.made();
-  return out;
+  return finish_command(std::move(out), outputs, arguments.json, report, table);
 }
 
 }  // namespace geotherm::app

@@ -108,10 +108,7 @@ Json centres_json(const CentreFigures& f) {
   for (const Centre& centre : f.centres.found) {
     centres.push_back(centre_json(*f.model.mesh, centre));
   }
-  return {{"model",
-           {{"name", f.model.name},
-            {"vertices", f.model.mesh->vertex_count()},
-            {"faces", f.model.mesh->face_count()}}},
+  return {{"model", brief_model_json(f.model)},
           {"method", to_text(f.options.method)},
           {"kind", to_text(f.options.kind)},
           {"of", std::move(of)},
@@ -231,14 +228,9 @@ Result<CommandOutput> run_centre(const CentreArguments& arguments, const Progres
                                           progress, outputs, out);
     if (!written) return written.error();
   }
-  if (!arguments.files.json.empty()) {
-    const auto written =
-        outputs.write_text(arguments.files.json, report_text(centres_json(figures)), out.text);
-    if (!written) return written.error();
-  }
-  if (!outputs.uses_stdout()) out.text = centres_table(figures);
-  out.made = outputs.made();
-  return out;
+  return finish_command(
+      std::move(out), outputs, arguments.files.json, [&] { return centres_json(figures); },
+      [&] { return centres_table(figures); });
 }
 
 }  // namespace geotherm::app

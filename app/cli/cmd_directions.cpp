@@ -10,6 +10,7 @@
 
 #include "app/cli/commands.h"
 #include "app/cli/many_work.h"
+#include "app/cli/path_report.h"
 #include "app/cli/vertex_columns.h"
 #include "app/picture/direction_picture.h"
 #include "app/session/model.h"
@@ -70,10 +71,7 @@ Json work_json(const DirectionWork& work, const char* stage, double ms) {
                 {"angle", f.angle},
                 {"border", f.border}};
   if (f.first != kNoIndex) frame["first"] = f.first;
-  return {{"model",
-           {{"name", work.model.name},
-            {"vertices", work.model.mesh->vertex_count()},
-            {"faces", work.model.mesh->face_count()}}},
+  return {{"model", brief_model_json(work.model)},
           {"from", point_json(work.point)},
           {"frame", std::move(frame)},
           {"timing_ms", {{"load", work.model.load_ms}, {"setup", work.setup_ms}, {stage, ms}}},
@@ -86,9 +84,7 @@ std::string vector_text(const Vec3& v) {
 
 TextTable work_table(const DirectionWork& work) {
   TextTable table({{"", TextTable::Align::kLeft}, {"", TextTable::Align::kLeft}});
-  table.add_row({"model", one_line(work.model.name) + ": " +
-                              counted(work.model.mesh->vertex_count(), "vertex", "vertices") +
-                              ", " + counted(work.model.mesh->face_count(), "face", "faces")});
+  table.add_row({"model", brief_model_text(work.model)});
   table.add_row({"frame", "e1 " + vector_text(work.frame.e1) + "; e2 " +
                               vector_text(work.frame.e2) + "; normal " +
                               vector_text(work.frame.normal)});
@@ -203,26 +199,24 @@ Result<CommandOutput> run_log_map(const LogMapArguments& arguments, const Progre
     const auto written = write_line_files(file, picture, asked->picture, progress, outputs, out);
     if (!written) return written.error();
   }
-  if (!arguments.json.empty()) {
+  const auto report = [&] {
     Json json = work_json(*work, "log_map", map_ms);
     json["reached"] = reached;
     json["method"] = to_text(options.method);
     json["in_doubt"] = map->in_doubt;
     json["log_map"] = {{"distances", map->distances}, {"directions", map->directions}};
-    const auto written = outputs.write_text(arguments.json, report_text(std::move(json)), out.text);
-    if (!written) return written.error();
-  }
-  if (!outputs.uses_stdout()) {
-    TextTable table = work_table(*work);
-    table.add_row({"log map",
-                   counted(reached, "vertex", "vertices") + " in " + milliseconds(map_ms) + " ms"});
+    return json;
+  };
+  const auto table = [&] {
+    TextTable rows = work_table(*work);
+    rows.add_row({"log map",
+                  counted(reached, "vertex", "vertices") + " in " + milliseconds(map_ms) + " ms"});
     if (map->in_doubt > 0) {
-      table.add_row({"in doubt", counted(map->in_doubt, "direction", "directions")});
+      rows.add_row({"in doubt", counted(map->in_doubt, "direction", "directions")});
     }
-    out.text = table.text();
-  }
-  out.made = outputs.made();
-  return out;
+    return rows.text();
+  };
+  return finish_command(std::move(out), outputs, arguments.json, report, table);
 }
 
 void add_trace_options(CLI::App& command, TraceArguments& arguments) {
@@ -305,19 +299,11 @@ Json lines_json(const TriangleMesh& mesh, const std::vector<double>& directions,
   Json json = Json::array();
   for (std::size_t i = 0; i < lines.size(); ++i) {
     const SurfacePath& path = lines[i].path;
-    Json points = Json::array(), faces = Json::array(), weights = Json::array();
-    for (const Vec3& p : positions_of(mesh, path)) points.push_back({p.x(), p.y(), p.z()});
-    for (const SurfacePoint& point : points_in_faces(mesh, path)) {
-      faces.push_back(point.face);
-      weights.push_back(point.weights);
-    }
     json.push_back({{"direction", directions[i]},
                     {"length", path.length},
                     {"end", to_text(lines[i].end)},
-                    {"to", point_json(path.points.back())},
-                    {"points", std::move(points)},
-                    {"faces", std::move(faces)},
-                    {"barycentric", std::move(weights)}});
+                    {"to", point_json(path.points.back())}});
+    json.back().update(points_json(mesh, path));
   }
   return json;
 }
@@ -364,29 +350,26 @@ Result<CommandOutput> run_trace(const TraceArguments& arguments, const Progress&
   const auto written =
       write_line_files(arguments.files, picture, asked->picture, progress, outputs, out);
   if (!written) return written.error();
-  if (!arguments.files.json.empty()) {
+  const auto report = [&] {
     Json json = work_json(*work, "trace", trace_ms);
     json["traced"] = lines_json(mesh, *directions, lines);
-    const auto done =
-        outputs.write_text(arguments.files.json, report_text(std::move(json)), out.text);
-    if (!done) return done.error();
-  }
-  if (!outputs.uses_stdout()) {
-    TextTable table = work_table(*work);
+    return json;
+  };
+  const auto table = [&] {
+    TextTable rows = work_table(*work);
     for (std::size_t i = 0; i < lines.size(); ++i) {
       const TracedLine& line = lines[i];
       const bool whole = line.end == TraceEnd::kLength;
-      table.add_row(
+      rows.add_row(
           {"line",
            "direction " + significant((*directions)[i]) + ": " + significant(line.path.length, 7) +
                (whole                           ? ""
                 : line.end == TraceEnd::kBorder ? ", where the border is"
                                                 : ", where three faces or several fans meet")});
     }
-    out.text = table.text();
-  }
-  out.made = outputs.made();
-  return out;
+    return rows.text();
+  };
+  return finish_command(std::move(out), outputs, arguments.files.json, report, table);
 }
 
 }  // namespace geotherm::app

@@ -226,17 +226,13 @@ Result<CommandOutput> run_isolines(const IsolinesArguments& arguments, const Pro
   const auto written = write_line_files(arguments.files, picture_of_lines(*figures, lines), picture,
                                         progress, outputs, out);
   if (!written) return written.error();
-  if (!arguments.files.json.empty()) {
-    const auto json = outputs.write_text(
-        arguments.files.json, report_text(isolines_json(*figures, *levels, lines)), out.text);
-    if (!json) return json.error();
-  }
   if (figures->error)
     out.note = accuracy_note(arguments.files.json, outputs, arguments.quiet, *figures->error,
                              accuracy_line(*figures->error));
-  if (!outputs.uses_stdout()) out.text = isolines_table(*figures, *levels, lines);
-  out.made = outputs.made();
-  return out;
+  return finish_command(
+      std::move(out), outputs, arguments.files.json,
+      [&] { return isolines_json(*figures, *levels, lines); },
+      [&] { return isolines_table(*figures, *levels, lines); });
 }
 
 }  // namespace geotherm::app

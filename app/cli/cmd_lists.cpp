@@ -58,17 +58,13 @@ Result<CommandOutput> run_info(const InfoArguments& arguments, const Progress& p
     if (polygons) note.hint.insert(note.hint.begin(), as_triangles.begin(), as_triangles.end());
     out.warnings.push_back(std::move(note));
   }
-  if (!outputs.uses_stdout()) out.text = info_table(*model, mesh);
-  if (arguments.json.empty()) return out;
-
-  std::string text = report_text(Json{{"model", full_model_json(*model, mesh)},
-                                      {"cracks", cracks_json(cracks)},
-                                      {"timing_ms", {{"load", model->load_ms}}},
-                                      {"warnings", told(out.warnings)}});
-  const auto written = outputs.write_text(arguments.json, std::move(text), out.text);
-  if (!written) return written.error();
-  out.made = outputs.made();
-  return out;
+  const Json json = {{"model", full_model_json(*model, mesh)},
+                     {"cracks", cracks_json(cracks)},
+                     {"timing_ms", {{"load", model->load_ms}}},
+                     {"warnings", told(out.warnings)}};
+  return finish_command(
+      std::move(out), outputs, arguments.json, [&] { return json; },
+      [&] { return info_table(*model, mesh); });
 }
 
 namespace {
@@ -81,18 +77,9 @@ void add_json_option(CLI::App& command, ListArguments& arguments) {
 Result<CommandOutput> list(const ListArguments& arguments, const TextTable& table,
                            const Json& json) {
   Outputs outputs;
-  CommandOutput out;
-  if (arguments.json.empty()) {
-    out.text = table.text();
-    return out;
-  }
-  if (auto expected = outputs.expect(arguments.json, "--json"); !expected) return expected.error();
-  if (!outputs.uses_stdout()) out.text = table.text();
-  if (auto written = outputs.write_text(arguments.json, report_text(json), out.text); !written) {
-    return written.error();
-  }
-  out.made = outputs.made();
-  return out;
+  if (auto fits = expect_report(arguments.json, outputs); !fits) return fits.error();
+  return finish_command(
+      {}, outputs, arguments.json, [&] { return json; }, [&] { return table.text(); });
 }
 
 }  // namespace
@@ -187,11 +174,7 @@ void add_devices_options(CLI::App& command, DevicesArguments& arguments) {
 
 Result<CommandOutput> run_devices(const DevicesArguments& arguments, Drawing& drawing) {
   Outputs outputs;
-  if (!arguments.json.empty()) {
-    if (auto expected = outputs.expect(arguments.json, "--json"); !expected) {
-      return expected.error();
-    }
-  }
+  if (auto fits = expect_report(arguments.json, outputs); !fits) return fits.error();
   const auto devices = drawing.devices();
   if (!devices) return devices.error();
   if (devices->empty()) {
@@ -201,13 +184,9 @@ Result<CommandOutput> run_devices(const DevicesArguments& arguments, Drawing& dr
         {"install a Vulkan driver (Debian: mesa-vulkan-drivers, which also draws in software)"}};
   }
   CommandOutput out;
-  if (!outputs.uses_stdout()) out.text = device_table(*devices);
-  if (arguments.json.empty()) return out;
-  const auto written =
-      outputs.write_text(arguments.json, report_text(devices_json(*devices)), out.text);
-  if (!written) return written.error();
-  out.made = outputs.made();
-  return out;
+  return finish_command(
+      std::move(out), outputs, arguments.json, [&] { return devices_json(*devices); },
+      [&] { return device_table(*devices); });
 }
 
 }  // namespace geotherm::app

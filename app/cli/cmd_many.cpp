@@ -42,8 +42,7 @@ Result<void> expect_rows(const SolveArguments& arguments, Outputs& outputs) {
                  {"write a .npy, or leave --target out"}};
   }
   if (auto expected = outputs.expect(path, "--output"); !expected) return expected;
-  if (arguments.json.empty()) return {};
-  return outputs.expect(arguments.json, "--json");
+  return expect_report(arguments.json, outputs);
 }
 
 Json each_json(const ManySources& work, const ManyFigures& figures, const RowSums& sums,
@@ -103,21 +102,17 @@ Result<CommandOutput> run_each(const SolveArguments& arguments, const Progress& 
   if (sums.unreached > 0 && !work->reach.is_bounded())
     figures->warnings.push_back({unreached_note(*work, sums.unreached)});
   CommandOutput out{"", figures->warnings, {}};
-  if (!arguments.json.empty()) {
-    const auto reported = outputs.write_text(
-        arguments.json, report_text(each_json(*work, *figures, sums, *type, *file)), out.text);
-    if (!reported) return reported.error();
-  }
   out.note = sample_note(arguments, outputs, *figures);
-  if (!outputs.uses_stdout()) {
-    out.text = many_table(*work, *figures,
-                          {{"model", one_line(work->model.name)},
-                           {"array", one_line(path) + ": " + size},
-                           {"distance", significant(sums.least) + " to " + significant(sums.most) +
-                                            ", mean " + significant(sums.mean)}});
-  }
-  out.made = outputs.made();
-  return out;
+  const auto table = [&] {
+    return many_table(*work, *figures,
+                      {{"model", one_line(work->model.name)},
+                       {"array", one_line(path) + ": " + size},
+                       {"distance", significant(sums.least) + " to " + significant(sums.most) +
+                                        ", mean " + significant(sums.mean)}});
+  };
+  return finish_command(
+      std::move(out), outputs, arguments.json,
+      [&] { return each_json(*work, *figures, sums, *type, *file); }, table);
 }
 
 namespace {
@@ -145,8 +140,7 @@ Result<void> expect_matrix(const SolveArguments& arguments, Outputs& outputs) {
                  "the type of numbers is that of a .npy file",
                  {"give -o FILE.npy, or leave --dtype and --float32 out"}};
   }
-  if (arguments.json.empty()) return {};
-  return outputs.expect(arguments.json, "--json");
+  return expect_report(arguments.json, outputs);
 }
 
 /// Two at least. Errors: kBadInput.
@@ -350,18 +344,11 @@ Result<CommandOutput> run_pairs(const SolveArguments& arguments, const Progress&
     if (!written) return written.error();
   }
   if (kept) kept->discard();
-  if (!arguments.json.empty()) {
-    const auto written = outputs.write_text(
-        arguments.json, report_text(pairs_json(*work, *figures, pairs, apart, arguments.symmetric)),
-        out.text);
-    if (!written) return written.error();
-  }
   out.note = sample_note(arguments, outputs, *figures);
-  if (!outputs.uses_stdout()) {
-    out.text = pairs_table(*work, *figures, pairs, apart, arguments.symmetric);
-  }
-  out.made = outputs.made();
-  return out;
+  return finish_command(
+      std::move(out), outputs, arguments.json,
+      [&] { return pairs_json(*work, *figures, pairs, apart, arguments.symmetric); },
+      [&] { return pairs_table(*work, *figures, pairs, apart, arguments.symmetric); });
 }
 
 }  // namespace geotherm::app

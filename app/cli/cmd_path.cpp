@@ -362,18 +362,13 @@ Result<CommandOutput> run_path(const PathArguments& arguments, const Progress& p
   const auto written = write_line_files(arguments.files, picture_of_paths(figures), task->picture,
                                         progress, outputs, out);
   if (!written) return written.error();
-  if (!arguments.files.json.empty()) {
-    const auto json =
-        outputs.write_text(arguments.files.json, report_text(path_json(figures)), out.text);
-    if (!json) return json.error();
-  }
   if (!arguments.lengths.empty()) {
     const auto table = write_lengths(arguments.lengths, figures, outputs, out.text);
     if (!table) return table.error();
   }
-  if (!outputs.uses_stdout()) out.text = path_table(figures);
-  out.made = outputs.made();
-  return out;
+  return finish_command(
+      std::move(out), outputs, arguments.files.json, [&] { return path_json(figures); },
+      [&] { return path_table(figures); });
 }
 
 }  // namespace geotherm::app

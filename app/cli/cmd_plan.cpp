@@ -136,11 +136,7 @@ Result<CommandOutput> run_plan(const PlanArguments& arguments) {
                         "--sources out, and give --ranks)"}};
   }
   Outputs outputs;
-  if (!arguments.json.empty()) {
-    if (auto expected = outputs.expect(arguments.json, "--json"); !expected) {
-      return expected.error();
-    }
-  }
+  if (auto fits = expect_report(arguments.json, outputs); !fits) return fits.error();
   // Blocks of sixteen are dealt out whole.
   const double blocks = std::ceil(*sources / 16), most = std::ceil(blocks / *ranks);
   const double rows = std::min(16 * most, *sources);
@@ -156,8 +152,7 @@ Result<CommandOutput> run_plan(const PlanArguments& arguments) {
   const auto file =
       static_cast<double>(npy_bytes_of(static_cast<std::uint64_t>(*sources),
                                        static_cast<std::uint64_t>(*vertices), NpyType::kFloat64));
-  CommandOutput out;
-  if (!arguments.json.empty()) {
+  const auto report = [&] {
     Json json = {{"plan",
                   {{"vertices", *vertices},
                    {"sources", *sources},
@@ -179,43 +174,42 @@ Result<CommandOutput> run_plan(const PlanArguments& arguments) {
       json["plan"]["waves_seconds"] = share.waves;
       json["plan"]["waves_exchanges"] = share.exchanges;
     }
-    const auto written = outputs.write_text(arguments.json, report_text(json), out.text);
-    if (!written) return written.error();
-  }
-  if (outputs.uses_stdout()) return out;
-  TextTable table({{"", TextTable::Align::kLeft}, {"", TextTable::Align::kLeft}});
-  const auto count = [](double number) { return grouped(static_cast<std::int64_t>(number)); };
-  table.add_row({"memory a rank",
-                 bytes_in_words(bytes) + (shared ? ", a share of the mesh and its factors in each"
-                                                 : ", whole mesh and factors in each")});
-  table.add_row({"memory of all", bytes_in_words(bytes * *ranks)});
-  if (shared) {
-    table.add_row(
-        {"vertices a rank", count(share.own) + ", " + count(share.blocks) + " blocks in all"});
-    table.add_row({"rounds", count(share.rounds) + " of the heat step at most"});
-  } else {
-    table.add_row({"rows a rank", count(rows) + " at most" +
-                                      (idle > 0 ? "; " + count(idle) + " ranks have none" : "")});
-  }
-  table.add_row({"set-up", seconds_in_words(setup) +
-                               (shared ? ", " + seconds_in_words(share.sharing) +
-                                             " of it to read and share out; one thread a rank"
-                                       : ", two threads a rank")});
-  table.add_row({"queries", seconds_in_words(queries) +
-                                (shared ? ", heat " + seconds_in_words(share.heat) + ", Poisson " +
-                                              seconds_in_words(share.poisson) +
-                                              "; without waiting for the network"
-                                        : "")});
-  if (shared) {
-    table.add_row({"by waves", "set-up " + seconds_in_words(share.sharing + share.cutting) +
-                                   ", query " + seconds_in_words(share.waves) + " and about " +
-                                   count(share.exchanges) +
-                                   " waits for the network, in place of heat and Poisson"});
-  }
-  table.add_row({"array", bytes_in_words(file) + ", half of it as float32"});
-  out.text = table.text();
-  out.made = outputs.made();
-  return out;
+    return json;
+  };
+  const auto table = [&] {
+    TextTable lines({{"", TextTable::Align::kLeft}, {"", TextTable::Align::kLeft}});
+    const auto count = [](double number) { return grouped(static_cast<std::int64_t>(number)); };
+    lines.add_row({"memory a rank",
+                   bytes_in_words(bytes) + (shared ? ", a share of the mesh and its factors in each"
+                                                   : ", whole mesh and factors in each")});
+    lines.add_row({"memory of all", bytes_in_words(bytes * *ranks)});
+    if (shared) {
+      lines.add_row(
+          {"vertices a rank", count(share.own) + ", " + count(share.blocks) + " blocks in all"});
+      lines.add_row({"rounds", count(share.rounds) + " of the heat step at most"});
+    } else {
+      lines.add_row({"rows a rank", count(rows) + " at most" +
+                                        (idle > 0 ? "; " + count(idle) + " ranks have none" : "")});
+    }
+    lines.add_row({"set-up", seconds_in_words(setup) +
+                                 (shared ? ", " + seconds_in_words(share.sharing) +
+                                               " of it to read and share out; one thread a rank"
+                                         : ", two threads a rank")});
+    lines.add_row({"queries", seconds_in_words(queries) +
+                                  (shared ? ", heat " + seconds_in_words(share.heat) +
+                                                ", Poisson " + seconds_in_words(share.poisson) +
+                                                "; without waiting for the network"
+                                          : "")});
+    if (shared) {
+      lines.add_row({"by waves", "set-up " + seconds_in_words(share.sharing + share.cutting) +
+                                     ", query " + seconds_in_words(share.waves) + " and about " +
+                                     count(share.exchanges) +
+                                     " waits for the network, in place of heat and Poisson"});
+    }
+    lines.add_row({"array", bytes_in_words(file) + ", half of it as float32"});
+    return lines.text();
+  };
+  return finish_command({}, outputs, arguments.json, report, table);
 }
 
 }  // namespace geotherm::app

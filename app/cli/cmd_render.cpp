@@ -62,8 +62,7 @@ Result<void> expect_outputs(const RenderArguments& arguments, const PictureSetti
   for (const std::string& path : picture_paths(arguments.output, settings)) {
     if (auto expected = outputs.expect(path, "--output"); !expected) return expected;
   }
-  if (arguments.json.empty()) return {};
-  return outputs.expect(arguments.json, "--json");
+  return expect_report(arguments.json, outputs);
 }
 
 Result<std::vector<Source>> sources_for(const RenderArguments& arguments, View view) {
@@ -287,18 +286,13 @@ Result<CommandOutput> run_render(const RenderArguments& typed, Drawing& drawing,
       return drawn.error();
     }
   }
-  if (!arguments.json.empty()) {
-    const auto written =
-        outputs.write_text(arguments.json, report_text(picture_json(figures)), out.text);
-    if (!written) return written.error();
-  }
-  if (!outputs.uses_stdout()) out.text = picture_table(figures);
   if (figures.solve && figures.solve->error) {
     out.note = accuracy_note(arguments.json, outputs, arguments.quiet, *figures.solve->error,
                              accuracy_line(*figures.solve->error));
   }
-  out.made = outputs.made();
-  return out;
+  return finish_command(
+      std::move(out), outputs, arguments.json, [&] { return picture_json(figures); },
+      [&] { return picture_table(figures); });
 }
 
 }  // namespace geotherm::app

@@ -138,14 +138,9 @@ Result<CommandOutput> run_render_models(const RenderArguments& arguments, const 
     outputs.remove_written();
     return drawn.error();
   }
-  if (!arguments.json.empty()) {
-    const auto written =
-        outputs.write_text(arguments.json, report_text(models_json(all)), out.text);
-    if (!written) return written.error();
-  }
-  if (!outputs.uses_stdout()) out.text = models_table(all, *columns);
-  out.made = outputs.made();
-  return out;
+  return finish_command(
+      std::move(out), outputs, arguments.json, [&] { return models_json(all); },
+      [&] { return models_table(all, *columns); });
 }
 
 }  // namespace geotherm::app

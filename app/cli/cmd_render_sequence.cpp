@@ -209,8 +209,7 @@ Result<void> expect_pictures(const RenderArguments& arguments, const Sequence& s
     const std::string path = paths.path(sequence.frames.number(k));
     if (auto expected = outputs.expect(path, "--output"); !expected) return expected;
   }
-  if (arguments.json.empty()) return {};
-  return outputs.expect(arguments.json, "--json");
+  return expect_report(arguments.json, outputs);
 }
 
 }  // namespace
@@ -269,16 +268,13 @@ Result<CommandOutput> run_render_sequence(const RenderArguments& arguments,
   out.warnings = figures->warnings;
   pictures.frames = frames_in_words(*sequence, *figures);
   pictures.frame_times = frame_times_in_words(*sequence, *figures);
-  if (!arguments.json.empty()) {
+  const auto report = [&] {
     Json json = sequence_json(*sequence, *figures);
     json["picture"] = picture_json(pictures)["picture"];
-    const auto written = outputs.write_text(arguments.json, report_text(json), out.text);
-    if (!written) return written.error();
-  }
-  if (auto replaced = outputs.replace_all(); !replaced) return replaced.error();
-  if (!outputs.uses_stdout()) out.text = picture_table(pictures);
-  out.made = outputs.made();
-  return out;
+    return json;
+  };
+  return finish_command(std::move(out), outputs, arguments.json, report,
+                        [&] { return picture_table(pictures); });
 }
 
 }  // namespace geotherm::app

@@ -66,8 +66,7 @@ Result<void> expect_outputs(const SampleArguments& arguments, Outputs& outputs) 
     }
     if (auto expected = outputs.expect(samples, "--samples"); !expected) return expected;
   }
-  if (arguments.json.empty()) return {};
-  return outputs.expect(arguments.json, "--json");
+  return expect_report(arguments.json, outputs);
 }
 
 /// What is asked for.
@@ -336,18 +335,13 @@ Result<CommandOutput> run_sample(const SampleArguments& arguments, const Progres
         arguments.samples, [&] { return write_samples(arguments.samples, *figures, out.text); });
     if (!written) return written.error();
   }
-  if (!arguments.json.empty()) {
-    const auto written =
-        outputs.write_text(arguments.json, report_text(sample_json(*figures)), out.text);
-    if (!written) return written.error();
-  }
   if (figures->error) {
     out.note = accuracy_note(arguments.json, outputs, arguments.quiet, figures->error->report,
                              accuracy_line(*figures->error));
   }
-  if (!outputs.uses_stdout()) out.text = sample_table(*figures);
-  out.made = outputs.made();
-  return out;
+  return finish_command(
+      std::move(out), outputs, arguments.json, [&] { return sample_json(*figures); },
+      [&] { return sample_table(*figures); });
 }
 
 }  // namespace geotherm::app

@@ -63,8 +63,7 @@ Result<void> expect_output(const SolveArguments& arguments, Outputs& outputs) {
                  {"give -o FILE.npy, or leave --dtype and --float32 out"}};
   }
   if (auto expected = outputs.expect(path, "--output"); !expected) return expected;
-  if (arguments.json.empty()) return {};
-  return outputs.expect(arguments.json, "--json");
+  return expect_report(arguments.json, outputs);
 }
 
 /// Takes the distances of frame after frame and makes files of them.
@@ -240,25 +239,21 @@ Result<CommandOutput> run_sequence(const SolveArguments& arguments, const Progre
 
   note_unused_settings(arguments.settings, asked->options, figures->warnings);
   CommandOutput out{"", figures->warnings, {}};
-  if (!arguments.json.empty()) {
+  const auto report = [&] {
     Json json = sequence_json(*sequence, *figures);
     json["distance"] = {{"min", sums.least},
                         {"max", sums.most},
                         {"mean", sums.mean},
                         {"unreached", sums.unreached}};
-    const auto reported = outputs.write_text(arguments.json, report_text(json), out.text);
-    if (!reported) return reported.error();
-  }
-  if (auto replaced = outputs.replace_all(); !replaced) return replaced.error();
-  if (!outputs.uses_stdout()) {
-    out.text = sequence_table(*sequence, *figures, sums, path, open->words);
-  }
+    return json;
+  };
   if (figures->answer->error) {
     out.note = accuracy_note(arguments.json, outputs, arguments.quiet, *figures->answer->error,
                              accuracy_line(*figures->answer->error));
   }
-  out.made = outputs.made();
-  return out;
+  return finish_command(std::move(out), outputs, arguments.json, report, [&] {
+    return sequence_table(*sequence, *figures, sums, path, open->words);
+  });
 }
 
 }  // namespace geotherm::app

@@ -195,11 +195,7 @@ Result<SharedWork> begin_shared(const SolveArguments& arguments, bool first) {
         npy_bytes_of(1, static_cast<std::uint64_t>(counts->vertices), work.type));
     if (auto fits = check_room(path, bytes); !fits) return fits.error();
   }
-  if (!arguments.json.empty()) {
-    if (auto expected = work.outputs.expect(arguments.json, "--json"); !expected) {
-      return expected.error();
-    }
-  }
+  if (auto fits = expect_report(arguments.json, work.outputs); !fits) return fits.error();
   return work;
 }
 
@@ -382,15 +378,10 @@ Result<CommandOutput> run_shared(const SolveArguments& arguments, const Progress
     if (auto poor = accuracy_warning(*answer->error, line)) out.warnings.push_back(*poor);
     out.note = accuracy_note(arguments.json, work->outputs, arguments.quiet, *answer->error, line);
   }
-  if (!arguments.json.empty()) {
-    const auto json = shared_json(*work, *answer, ranks->count(), peak_mb);
-    const auto written = work->outputs.write_text(arguments.json, report_text(json), out.text);
-    if (!written) return written.error();
-  }
-  if (!work->outputs.uses_stdout())
-    out.text = shared_table(*work, *answer, ranks->count(), peak_mb);
-  out.made = work->outputs.made();
-  return out;
+  return finish_command(
+      std::move(out), work->outputs, arguments.json,
+      [&] { return shared_json(*work, *answer, ranks->count(), peak_mb); },
+      [&] { return shared_table(*work, *answer, ranks->count(), peak_mb); });
 }
 
 }  // namespace geotherm::app

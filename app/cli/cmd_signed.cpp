@@ -207,35 +207,29 @@ Result<CommandOutput> run_signed(const SignedArguments& arguments, const Progres
                             out.text);
     if (!written) return written.error();
   }
-  if (!arguments.json.empty()) {
+  const auto report = [&]() -> Json {
     double length = 0;
     for (const SurfacePath& curve : *curves) length += length_of(*model->mesh, curve.points);
-    const Json json = {{"model",
-                        {{"name", model->name},
-                         {"vertices", model->mesh->vertex_count()},
-                         {"faces", model->mesh->face_count()}}},
-                       {"rule", to_text(found->rule)},
-                       {"count", curves->size()},
-                       {"length", length},
-                       {"reached", reached},
-                       {"range", {least, most}},
-                       {"timing_ms", {{"load", model->load_ms}, {"solve", ms}}},
-                       {"warnings", told(warnings)}};
-    const auto written = outputs.write_text(arguments.json, report_text(json), out.text);
-    if (!written) return written.error();
-  }
-  if (!outputs.uses_stdout()) {
-    TextTable table({{"", TextTable::Align::kLeft}, {"", TextTable::Align::kLeft}});
-    table.add_row({"model", one_line(model->name) + ": " +
-                                counted(model->mesh->vertex_count(), "vertex", "vertices")});
-    table.add_row({"curves", counted(static_cast<std::int64_t>(curves->size()), "curve", "curves") +
-                                 ", by " + to_text(found->rule)});
-    table.add_row({"distances", significant(least) + " to " + significant(most)});
-    table.add_row({"solve", milliseconds(ms) + " ms"});
-    out.text = table.text();
-  }
-  out.made = outputs.made();
-  return out;
+    return {{"model", brief_model_json(*model)},
+            {"rule", to_text(found->rule)},
+            {"count", curves->size()},
+            {"length", length},
+            {"reached", reached},
+            {"range", {least, most}},
+            {"timing_ms", {{"load", model->load_ms}, {"solve", ms}}},
+            {"warnings", told(warnings)}};
+  };
+  const auto table = [&] {
+    TextTable rows({{"", TextTable::Align::kLeft}, {"", TextTable::Align::kLeft}});
+    rows.add_row({"model", one_line(model->name) + ": " +
+                               counted(model->mesh->vertex_count(), "vertex", "vertices")});
+    rows.add_row({"curves", counted(static_cast<std::int64_t>(curves->size()), "curve", "curves") +
+                                ", by " + to_text(found->rule)});
+    rows.add_row({"distances", significant(least) + " to " + significant(most)});
+    rows.add_row({"solve", milliseconds(ms) + " ms"});
+    return rows.text();
+  };
+  return finish_command(std::move(out), outputs, arguments.json, report, table);
 }
 
 }  // namespace geotherm::app

@@ -52,8 +52,7 @@ Result<void> expect_outputs(const SolveArguments& arguments, Outputs& outputs) {
     if (auto known = check_distance_path(path); !known && !known_of_space) return known;
     if (auto expected = outputs.expect(path, "--output"); !expected) return expected;
   }
-  if (arguments.json.empty()) return {};
-  return outputs.expect(arguments.json, "--json");
+  return expect_report(arguments.json, outputs);
 }
 
 Result<void> check_outputs_of(const Model& model, const std::vector<std::string>& paths) {
@@ -321,17 +320,12 @@ Result<CommandOutput> run_solve(const SolveArguments& arguments, const Drawing& 
     });
     if (!written) return written.error();
   }
-  if (!arguments.json.empty()) {
-    const auto written =
-        outputs.write_text(arguments.json, report_text(solve_json(*figures)), out.text);
-    if (!written) return written.error();
-  }
-  if (!outputs.uses_stdout()) out.text = solve_table(*figures);
   if (figures->error)
     out.note = accuracy_note(arguments.json, outputs, arguments.quiet, *figures->error,
                              accuracy_line(*figures->error));
-  out.made = outputs.made();
-  return out;
+  return finish_command(
+      std::move(out), outputs, arguments.json, [&] { return solve_json(*figures); },
+      [&] { return solve_table(*figures); });
 }
 
 }  // namespace geotherm::app

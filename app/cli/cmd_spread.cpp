@@ -132,10 +132,7 @@ Json spread_json(const SpreadWork& work, const std::vector<AtVertex>& given, Ind
   for (const AtVertex& each : given) {
     from.push_back({{"vertex", each.vertex}, {"numbers", each.numbers}});
   }
-  return {{"model",
-           {{"name", work.model.name},
-            {"vertices", work.model.mesh->vertex_count()},
-            {"faces", work.model.mesh->face_count()}}},
+  return {{"model", brief_model_json(work.model)},
           {"given", std::move(from)},
           {"reached", reached},
           {"t", work.spread.t},
@@ -186,9 +183,7 @@ Result<std::vector<SurfacePath>> arrows(const SpreadWork& work) {
 
 std::string spread_table(const SpreadWork& work, const char* what, Index reached) {
   TextTable table({{"", TextTable::Align::kLeft}, {"", TextTable::Align::kLeft}});
-  table.add_row({"model", one_line(work.model.name) + ": " +
-                              counted(work.model.mesh->vertex_count(), "vertex", "vertices") +
-                              ", " + counted(work.model.mesh->face_count(), "face", "faces")});
+  table.add_row({"model", brief_model_text(work.model)});
   table.add_row({what, "at " + counted(reached, "vertex", "vertices")});
   table.add_row({"t", significant(work.spread.t)});
   table.add_row({"set-up", milliseconds(work.setup_ms) + " ms"});
@@ -282,7 +277,7 @@ Result<CommandOutput> run_transport(const SpreadArguments& arguments, const Prog
                              : write_columns(path, *work->model.mesh, columns, outputs, out.text);
     if (!written) return written.error();
   }
-  if (!arguments.json.empty()) {
+  const auto report = [&] {
     Json json = spread_json(*work, *given, reached);
     json["components"] = work->spread.components;
     json["vectors"] = json["tangent_frames"]["e1"] = json["tangent_frames"]["e2"] = Json::array();
@@ -291,12 +286,10 @@ Result<CommandOutput> run_transport(const SpreadArguments& arguments, const Prog
       json["tangent_frames"]["e1"].push_back({frame.e1.x(), frame.e1.y(), frame.e1.z()});
       json["tangent_frames"]["e2"].push_back({frame.e2.x(), frame.e2.y(), frame.e2.z()});
     }
-    const auto written = outputs.write_text(arguments.json, report_text(std::move(json)), out.text);
-    if (!written) return written.error();
-  }
-  if (!outputs.uses_stdout()) out.text = spread_table(*work, "vectors", reached);
-  out.made = outputs.made();
-  return out;
+    return json;
+  };
+  return finish_command(std::move(out), outputs, arguments.json, report,
+                        [&] { return spread_table(*work, "vectors", reached); });
 }
 
 void add_extend_options(CLI::App& command, SpreadArguments& arguments) {
@@ -341,15 +334,13 @@ Result<CommandOutput> run_extend(const SpreadArguments& arguments, const Progres
         write_columns(path, *work->model.mesh, {{"value", all}}, outputs, out.text);
     if (!written) return written.error();
   }
-  if (!arguments.json.empty()) {
+  const auto report = [&] {
     Json json = spread_json(*work, *given, reached);
     json["values"] = all;
-    const auto written = outputs.write_text(arguments.json, report_text(std::move(json)), out.text);
-    if (!written) return written.error();
-  }
-  if (!outputs.uses_stdout()) out.text = spread_table(*work, "values", reached);
-  out.made = outputs.made();
-  return out;
+    return json;
+  };
+  return finish_command(std::move(out), outputs, arguments.json, report,
+                        [&] { return spread_table(*work, "values", reached); });
 }
 
 }  // namespace geotherm::app

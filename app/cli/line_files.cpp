@@ -40,7 +40,7 @@ Result<void> expect_line_files(const LineFileArguments& arguments, Outputs& outp
     if (auto known = check_line_path(path); !known) return known;
     if (auto expected = outputs.expect(path, "--output"); !expected) return expected;
   }
-  return arguments.json.empty() ? Result<void>() : outputs.expect(arguments.json, "--json");
+  return expect_report(arguments.json, outputs);
 }
 
 Result<void> write_line_files(const LineFileArguments& arguments, const LinePicture& picture,

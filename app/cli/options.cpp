@@ -197,6 +197,23 @@ std::string accuracy_note(const std::string& json, const Outputs& outputs, bool 
   return "accuracy: " + told(line);
 }
 
+Result<void> expect_report(const std::string& json, Outputs& outputs) {
+  return json.empty() ? Result<void>() : outputs.expect(json, "--json");
+}
+
+Result<CommandOutput> finish_command(CommandOutput out, Outputs& outputs, const std::string& path,
+                                     const std::function<Json()>& report,
+                                     const std::function<std::string()>& table) {
+  if (!path.empty()) {
+    auto written = outputs.write_text(path, report_text(report()), out.text);
+    if (!written) return written.error();
+  }
+  if (auto replaced = outputs.replace_all(); !replaced) return replaced.error();
+  if (!outputs.uses_stdout()) out.text = table();
+  out.made = outputs.made();
+  return out;
+}
+
 namespace {
 
 constexpr int kMaxFrames = 3600;

@@ -12,6 +12,7 @@
 #include "app/picture/picture_settings.h"
 #include "app/session/check.h"
 #include "app/session/outputs.h"
+#include "app/session/report.h"
 #include "app/session/settings.h"
 #include "app/session/sources.h"
 #include "geotherm/error.h"
@@ -108,6 +109,15 @@ Result<void> refuse_better(const CheckSettings& settings, const std::string& wha
 /// accuracy_line().
 std::string accuracy_note(const std::string& json, const Outputs& outputs, bool quiet,
                           const AccuracyReport& report, const Warning& line);
+
+/// Where the report of a command goes; empty: there is none. Errors: those of Outputs::expect().
+Result<void> expect_report(const std::string& json, Outputs& outputs);
+
+/// How a command ends: its report goes to `path`, unless that is empty, files take their places,
+/// and the table is printed where no output goes to standard output. Errors: those of the files.
+Result<CommandOutput> finish_command(CommandOutput out, Outputs& outputs, const std::string& path,
+                                     const std::function<Json()>& report,
+                                     const std::function<std::string()>& table);
 
 /// What a picture needs beside the settings of the table, as typed.
 struct PictureArguments {

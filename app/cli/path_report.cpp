@@ -7,15 +7,21 @@
 
 namespace geotherm::app {
 
-namespace {
-
-Json line_json(const TriangleMesh& mesh, const FoundLine& line, PathField field) {
+Json points_json(const TriangleMesh& mesh, const SurfacePath& path) {
   Json points = Json::array(), faces = Json::array(), weights = Json::array();
-  for (const Vec3& p : positions_of(mesh, line.path)) points.push_back({p.x(), p.y(), p.z()});
-  for (const SurfacePoint& point : points_in_faces(mesh, line.path)) {
+  for (const Vec3& p : positions_of(mesh, path)) points.push_back({p.x(), p.y(), p.z()});
+  for (const SurfacePoint& point : points_in_faces(mesh, path)) {
     faces.push_back(point.face);
     weights.push_back(point.weights);
   }
+  return {{"points", std::move(points)},
+          {"faces", std::move(faces)},
+          {"barycentric", std::move(weights)}};
+}
+
+namespace {
+
+Json line_json(const TriangleMesh& mesh, const FoundLine& line, PathField field) {
   Json json = {{"from", point_json(line.stops.front())}, {"to", point_json(line.stops.back())}};
   if (line.stops.size() > 2) {
     json["via"] = Json::array();
@@ -23,12 +29,9 @@ Json line_json(const TriangleMesh& mesh, const FoundLine& line, PathField field)
       json["via"].push_back(point_json(line.stops[i]));
     }
   }
-  json.update({{"length", line.path.length},
-               {"field", to_text(field)},
-               {"closed", line.path.closed},
-               {"points", std::move(points)},
-               {"faces", std::move(faces)},
-               {"barycentric", std::move(weights)}});
+  json.update(
+      {{"length", line.path.length}, {"field", to_text(field)}, {"closed", line.path.closed}});
+  json.update(points_json(mesh, line.path));
   return json;
 }
 
@@ -58,10 +61,7 @@ Json path_json(const PathFigures& figures) {
     }
   }
   json.update(
-      {{"model",
-        {{"name", figures.model.name},
-         {"vertices", mesh.vertex_count()},
-         {"faces", mesh.face_count()}}},
+      {{"model", brief_model_json(figures.model)},
        {"method", to_text(figures.method.method)},
        {"timing_ms",
         {{"load", figures.model.load_ms}, {"setup", figures.setup_ms}, {"path", figures.path_ms}}},
@@ -106,9 +106,7 @@ std::string lengths_csv(const PathFigures& figures) {
 
 std::string path_table(const PathFigures& figures) {
   TextTable table({{"", TextTable::Align::kLeft}, {"", TextTable::Align::kLeft}});
-  table.add_row({"model", one_line(figures.model.name) + ": " +
-                              counted(figures.model.mesh->vertex_count(), "vertex", "vertices") +
-                              ", " + counted(figures.model.mesh->face_count(), "face", "faces")});
+  table.add_row({"model", brief_model_text(figures.model)});
   table.add_row({"field", to_text(figures.options.field) + ", led by distances of " +
                               to_text(figures.method.method)});
   if (figures.error && figures.error->measured) {

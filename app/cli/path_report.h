@@ -31,6 +31,9 @@ struct PathFigures {
   std::optional<AccuracyReport> error;  ///< of the distances from the start that lead the way
 };
 
+/// Where a path runs: "points" in space, and the same as "faces" with their "barycentric" weights.
+Json points_json(const TriangleMesh& mesh, const SurfacePath& path);
+
 /// The first path's keys, then those of the work; with several paths each is in `paths`. points[i]
 /// has the weights barycentric[i] in faces[i], which also holds the piece up to points[i + 1].
 Json path_json(const PathFigures& figures);

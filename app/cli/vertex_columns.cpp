@@ -64,7 +64,7 @@ Result<void> expect_columns(const std::vector<std::string>& outputs, const std::
     }
     if (auto fits = expected.expect(path, "--output"); !fits) return fits;
   }
-  return json.empty() ? Result<void>() : expected.expect(json, "--json");
+  return expect_report(json, expected);
 }
 
 Result<void> write_columns(const std::string& path, const TriangleMesh& mesh,

@@ -20,6 +20,10 @@ std::string key_of(const Setting& setting);
 /// The keys of `model` that every report has. "path" is null where the model is no file.
 Json model_json(const Model& model, const MeshSummary& mesh);
 
+/// The model of commands that say no more of it: its name and size.
+Json brief_model_json(const Model& model);
+std::string brief_model_text(const Model& model);
+
 /// Says what the model holds where that is no surface: "domain", and of a volume "tets". Faces and
 /// edges of a solve are those of its border, or of the triangles between points.
 void add_domain(const Model& model, Json& json);

@@ -123,6 +123,12 @@ Json model_json(const Model& model, const MeshSummary& mesh) {
           {"area", mesh.area}};
 }
 
+Json brief_model_json(const Model& model) {
+  return {{"name", model.name},
+          {"vertices", model.mesh->vertex_count()},
+          {"faces", model.mesh->face_count()}};
+}
+
 void add_domain(const Model& model, Json& json) {
   if (model.is_mesh()) return;
   json["domain"] = domain_name(model);

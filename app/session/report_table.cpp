@@ -241,6 +241,11 @@ std::string space_table(const Model& model, const MeshReport& mesh) {
 
 }  // namespace
 
+std::string brief_model_text(const Model& model) {
+  return one_line(model.name) + ": " + counted(model.mesh->vertex_count(), "vertex", "vertices") +
+         ", " + counted(model.mesh->face_count(), "face", "faces");
+}
+
 std::string info_table(const Model& model, const MeshReport& mesh) {
   if (model.space) return space_table(model, mesh);
   TextTable table = two_columns();
