@@ -259,7 +259,8 @@ std::vector<GridDamage> grid_damages() {
        "a grid of 3000000 x 2000000 x 1 samples has more than a billion"},
       {"npy_empty", "a.npy", npy("<f8", "(0, 3)", ""), "a grid of 3 x 0 x 1 samples is empty"},
       {"npy_negative", "a.npy", npy("<f8", "(2, 2)", raw<double>({1, 1, 1, -2})),
-       "the speed in column 1 of row 1 is -2; speeds are finite, 0 or more; grid mask takes what is not 0 "
+       "the speed in column 1 of row 1 is -2; speeds are finite, 0 or more; grid mask takes what "
+       "is not 0 "
        "as passable"},
       {"npy_walls", "a.npy", npy("|u1", "(2, 2)", std::string("\1\0\0\1", 4)),
        "no two neighbouring samples of the grid pass; as read, 0 is wall, all else passes"},
