@@ -73,13 +73,16 @@ bool give_threads_their_stack() {
   return set;
 }
 
+/// Lets ranks before this one speak first, which may have met the same.
+void wait_for_others() {
+  if (!geotherm::mpi_is_started()) return;
+  const double seconds = geotherm::app::seconds_for_others(geotherm::app::launched_as().rank);
+  std::this_thread::sleep_for(std::chrono::duration<double>(seconds));
+}
+
 /// One line, and the end of all ranks where there are several.
 int end_with(int code, const std::string& line) {
   const geotherm::RankOfCount ours = geotherm::app::launched_as();
-  if (geotherm::mpi_is_started()) {
-    const double seconds = geotherm::app::seconds_for_others(ours.rank);
-    std::this_thread::sleep_for(std::chrono::duration<double>(seconds));
-  }
   const std::string rank = ours.count > 1 ? "rank " + std::to_string(ours.rank) + ": " : "";
   std::fprintf(stderr, "geotherm: error: %s%s\n", rank.c_str(), line.c_str());
   geotherm::end_all_ranks(code);
@@ -93,15 +96,18 @@ int run(int argc, char** argv) {
     const std::unique_ptr<ViewerWindow> window = make_window();
     return run_command_line({argv + (argc > 0 ? 1 : 0), argv + argc}, *drawing, *window);
   } catch (const std::bad_alloc&) {
+    wait_for_others();
     const bool rank = launched_as().count > 1;
     return end_with(
         1, std::string("not enough memory; try ") +
                (rank ? "more ranks, or fewer on each machine" : "a smaller mesh or --backend cg"));
-  } catch (const UnheardError& unheard) {
+  } catch (const UnheardError& unheard) {  // which has waited
     return end_with(exit_code(unheard.error.code), one_line(told(unheard.error)));
   } catch (const std::system_error& failure) {  // no thread could be started, most likely
+    wait_for_others();
     return end_with(1, "the system refuses: " + std::string(failure.what()) + "; try --threads 1");
   } catch (const std::exception& failure) {
+    wait_for_others();
     return end_with(1, "unexpected: " + std::string(failure.what()) + "; please report it");
   }
 }

@@ -35,11 +35,26 @@ double badness_of(const TriedSetting& tried) {
   return badness(error);
 }
 
+/// What the answer of a method that others are held against is known to be.
+std::string near_exactness_of(MethodKind reference) {
+  switch (reference) {
+    case MethodKind::kExact:
+      return "exact";
+    case MethodKind::kWavefront:
+    case MethodKind::kWavefrontFine:
+      return "near exact";
+    case MethodKind::kHeat:
+    case MethodKind::kFastMarching:
+      break;
+  }
+  return "what it was held against";
+}
+
 /// Appends ", with SETTING it is FIGURE".
 void add_gain(const AccuracyReport& report, const TriedSetting& tried, Hint& advice) {
   std::string gain = " it is ";
   if (tried.option == "method" && tried.value == to_text(tried.against)) {
-    gain += tried.against == MethodKind::kExact ? "exact" : "near exact";
+    gain += near_exactness_of(tried.against);
   } else {
     gain += figure_text(report.figures, tried.mean_relative, tried.max_of_range);
     if (tried.against != report.reference) gain += " (against " + to_text(tried.against) + ')';

@@ -5,6 +5,8 @@
 #include <Eigen/Geometry>
 #include <random>
 
+#include "geotherm/domains.h"
+#include "solver/geometry/cell_mesh.h"
 #include "solver/geometry/fem_operator.h"
 #include "tests/support/compare.h"
 #include "tests/support/mesh_zoo.h"
@@ -87,42 +89,62 @@ TEST_P(Operators, DivergenceOfTheGradientIsTheStiffness) {
   EXPECT_LE((dense(L.assembled()) * x - applied).lpNorm<Eigen::Infinity>(), tolerance);
 }
 
-class OperatorForms : public Operators {
- protected:
-  /// apply(), assembled(), rows, diagonal(), residual() and pattern say the same.
-  static void expect_one_operator(const FemOperator& M) {
-    const Eigen::MatrixXd applied = dense(M), stored = dense(M.assembled());
-    EXPECT_LE(relative_difference(values(stored), values(applied)), kOperatorRoundOff);
-    EXPECT_LE((applied - applied.transpose()).lpNorm<Eigen::Infinity>(),
-              kOperatorRoundOff * applied.lpNorm<Eigen::Infinity>());
-    EXPECT_LE(relative_difference(M.diagonal(), values(stored.diagonal())), 0);
-    Eigen::MatrixXd listed = Eigen::MatrixXd::Zero(M.size(), M.size());
-    std::vector<Index> columns;
-    std::vector<double> entries;
-    for (Index i = 0; i < M.size(); ++i, columns.clear(), entries.clear()) {
-      M.list_row(i, columns, entries);
-      EXPECT_EQ(columns.front(), i);
-      for (std::size_t e = 0; e < columns.size(); ++e) listed(i, columns[e]) += entries[e];
+/// apply(), assembled(), rows, diagonal(), residual() and pattern say the same.
+void expect_one_operator(const DomainOperator& M) {
+  const Eigen::MatrixXd applied = dense(M), stored = dense(M.assembled());
+  EXPECT_LE(relative_difference(values(stored), values(applied)), kOperatorRoundOff);
+  EXPECT_LE((applied - applied.transpose()).lpNorm<Eigen::Infinity>(),
+            kOperatorRoundOff * applied.lpNorm<Eigen::Infinity>());
+  EXPECT_LE(relative_difference(M.diagonal(), values(stored.diagonal())), 0);
+  Eigen::MatrixXd listed = Eigen::MatrixXd::Zero(M.size(), M.size());
+  std::vector<Index> columns;
+  std::vector<double> entries;
+  for (Index i = 0; i < M.size(); ++i, columns.clear(), entries.clear()) {
+    M.list_row(i, columns, entries);
+    EXPECT_EQ(columns.front(), i);
+    for (std::size_t e = 0; e < columns.size(); ++e) {
+      EXPECT_EQ(listed(i, columns[e]), 0) << "twice in row " << i;
+      listed(i, columns[e]) = entries[e];
     }
-    EXPECT_LE(relative_difference(values(listed), values(stored)), kOperatorRoundOff);
-    M.drop_assembled();
-    EXPECT_EQ(dense(M.assembled()), stored);
-    constexpr int kColumns = 3;
-    const Block x = random_vector(kColumns * M.size()).reshaped(M.size(), kColumns);
-    const Block b = x.rowwise().reverse();
-    Block residual(x.rows(), x.cols());
-    M.residual(b, x, residual, 1);
-    EXPECT_LE(
-        (residual - (b - stored * x)).lpNorm<Eigen::Infinity>(),
-        kOperatorRoundOff * (stored.lpNorm<Eigen::Infinity>() + 1) * x.lpNorm<Eigen::Infinity>());
   }
-  /// Every fifth vertex.
-  static std::vector<Index> some_held(Index n) {
-    std::vector<Index> held;
-    for (Index i = 0; i < n; i += 5) held.push_back(i);
-    return held;
+  EXPECT_LE(relative_difference(values(listed), values(stored)), kOperatorRoundOff);
+  M.drop_assembled();
+  EXPECT_EQ(dense(M.assembled()), stored);
+  constexpr int kColumns = 3;
+  const Block x = random_vector(kColumns * M.size()).reshaped(M.size(), kColumns);
+  const Block b = x.rowwise().reverse();
+  Block residual(x.rows(), x.cols());
+  M.residual(b, x, residual, 1);
+  EXPECT_LE(
+      (residual - (b - stored * x)).lpNorm<Eigen::Infinity>(),
+      kOperatorRoundOff * (stored.lpNorm<Eigen::Infinity>() + 1) * x.lpNorm<Eigen::Infinity>());
+}
+
+/// Every fifth vertex.
+std::vector<Index> some_held(Index n) {
+  std::vector<Index> held;
+  for (Index i = 0; i < n; i += 5) held.push_back(i);
+  return held;
+}
+
+class OperatorForms : public Operators {};
+
+// A cube of five tets, of which the elimination order is not that of the vertices.
+TEST(CellOperators, AgreeOnTets) {
+  std::vector<Vec3> corners;
+  for (int v = 0; v < 8; ++v) corners.emplace_back(v & 1, v >> 1 & 1, 1.3 * (v >> 2));
+  const auto cube = TetMesh::build(
+      corners, {{0, 1, 2, 4}, {3, 2, 1, 7}, {5, 4, 7, 1}, {6, 7, 4, 2}, {1, 2, 4, 7}});
+  ASSERT_TRUE(cube) << cube.error().message;
+  const auto cells = cells_of(*cube);
+  ASSERT_TRUE(cells) << cells.error().message;
+  const std::vector<Index> order = {3, 7, 0, 5, 1, 6, 2, 4};
+  const auto mesh = build_cell_mesh(*cells, pattern_of_cells(*cells, 1), order, 1, 1);
+  for (const double share : {0.0, kConsistentShare}) {
+    expect_one_operator(CellOperator(mesh, 1, kHeatTime, share, {}, 1));
+    expect_one_operator(CellOperator(mesh, 1, kHeatTime, share, some_held(mesh->size()), 1));
   }
-};
+}
 
 TEST_P(OperatorForms, AgreeWithLumpedMass) {
   expect_one_operator(FemOperator(operators(true), 1, kHeatTime));
