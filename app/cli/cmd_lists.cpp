@@ -33,12 +33,8 @@ void add_info_options(CLI::App& command, InfoArguments& arguments) {
 
 Result<CommandOutput> run_info(const InfoArguments& arguments, const Progress& progress) {
   Outputs outputs;
-  if (!arguments.json.empty()) {
-    protect_inputs(arguments.model, {}, outputs);
-    if (auto expected = outputs.expect(arguments.json, "--json"); !expected) {
-      return expected.error();
-    }
-  }
+  protect_inputs(arguments.model, {}, outputs);
+  if (auto fits = expect_report(arguments.json, outputs); !fits) return fits.error();
   const auto asked = settings_in(arguments.settings);
   if (!asked) return asked.error();
   const auto model = load_model(arguments.model, asked->reading, progress);
@@ -58,13 +54,14 @@ Result<CommandOutput> run_info(const InfoArguments& arguments, const Progress& p
     if (polygons) note.hint.insert(note.hint.begin(), as_triangles.begin(), as_triangles.end());
     out.warnings.push_back(std::move(note));
   }
-  const Json json = {{"model", full_model_json(*model, mesh)},
-                     {"cracks", cracks_json(cracks)},
-                     {"timing_ms", {{"load", model->load_ms}}},
-                     {"warnings", told(out.warnings)}};
-  return finish_command(
-      std::move(out), outputs, arguments.json, [&] { return json; },
-      [&] { return info_table(*model, mesh); });
+  const auto report = [&, warnings = told(out.warnings)]() -> Json {
+    return {{"model", full_model_json(*model, mesh)},
+            {"cracks", cracks_json(cracks)},
+            {"timing_ms", {{"load", model->load_ms}}},
+            {"warnings", warnings}};
+  };
+  return finish_command(std::move(out), outputs, arguments.json, report,
+                        [&] { return info_table(*model, mesh); });
 }
 
 namespace {
