@@ -192,15 +192,17 @@ BoundTolerance bound_tolerance(MethodKind method) {
 }
 
 void check_straight_lines(const IntrinsicSurface& surface, const SourceSet& sources, double unit,
-                          const BoundTolerance& tolerance, int threads, DistanceResult& result) {
+                          const BoundTolerance& tolerance, BelowLine below, int threads,
+                          DistanceResult& result) {
   check_straight_lines(surface.mesh->positions(),
                        StraightLine(*surface.mesh, sources, surface.mean_edge), surface.mean_edge,
-                       unit, tolerance, threads, result);
+                       unit, tolerance, below, threads, result);
 }
 
 void check_straight_lines(std::span<const Vec3> positions, const StraightLine& straight,
                           double mean_edge, double unit, const BoundTolerance& tolerance,
-                          int threads, DistanceResult& result) {
+                          BelowLine below, int threads, DistanceResult& result) {
+  const bool raises = below == BelowLine::kRaised;
   const double to_edges = unit / mean_edge;
   const double per_share = 1 / (1 - tolerance.line_share);
   const bool clamped = result.quality.clamped_vertices > 0;
@@ -218,9 +220,11 @@ void check_straight_lines(std::span<const Vec3> positions, const StraightLine& s
                const Vec3 place = straight.place(positions[v]);
                if (distance == 0 && clamped)
                  sum.reach = std::max(sum.reach, straight.length(place));
-               if (straight.is_within(place, most, hint)) continue;
+               if (straight.is_within(place, raises ? distance : most, hint)) continue;
                const double line = straight.length(place);
-               if (!(line > most && line < kUnreached)) continue;  // beyond the range of doubles
+               if (!(line < kUnreached)) continue;  // beyond the range of doubles
+               if (raises && line > distance) result.distances[v] = line / to_edges;
+               if (!(line > most)) continue;
                ++sum.below;
                sum.most = std::max(sum.most, 1 - distance / line);
              }

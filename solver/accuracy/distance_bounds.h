@@ -114,15 +114,20 @@ class SteepSides {
   double count_ = 0, steepest_ = 0;
 };
 
-/// Counts the vertices whose distances are below the straight line. `result.distances`: V, as
-/// `positions`, in units of `unit` (model units). `mean_edge`: what `straight` was made with. Cost:
-/// one pass over the vertices, for K sources O(log K) where the nearest changes; the same figures
-/// with any number of threads. Preconditions: those of StraightLine. Throws std::bad_alloc.
+/// What becomes of a distance that is below the straight line.
+enum class BelowLine { kKept, kRaised };
+
+/// Counts the vertices whose distances are below the straight line by more than the tolerance, and
+/// raises all that are below to it where `below` says so. `result.distances`: V, as `positions`, in
+/// units of `unit` (model units). `mean_edge`: what `straight` was made with. Cost: one pass over
+/// the vertices, for K sources O(log K) where the nearest changes; the same figures with any number
+/// of threads. Preconditions: those of StraightLine. Throws std::bad_alloc.
 void check_straight_lines(std::span<const Vec3> positions, const StraightLine& straight,
                           double mean_edge, double unit, const BoundTolerance& tolerance,
-                          int threads, DistanceResult& result);
+                          BelowLine below, int threads, DistanceResult& result);
 void check_straight_lines(const IntrinsicSurface& surface, const SourceSet& sources, double unit,
-                          const BoundTolerance& tolerance, int threads, DistanceResult& result);
+                          const BoundTolerance& tolerance, BelowLine below, int threads,
+                          DistanceResult& result);
 
 /// A sentence for each bound that the figures say is broken, with what to do.
 void add_bound_warnings(MethodKind method, DistanceResult& result);

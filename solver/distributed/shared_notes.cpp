@@ -132,7 +132,8 @@ void check_lines(const SharedTask& task, DistanceResult& result) {
   }
   const double edge = task.components.mean_edge;
   check_straight_lines(own, StraightLine(sources, edge), edge, 1,
-                       bound_tolerance(MethodKind::kHeat), task.threads, result);
+                       bound_tolerance(MethodKind::kHeat), BelowLine::kRaised, task.threads,
+                       result);
   Quality& q = result.quality;
   std::array<double, 2> sums = {static_cast<double>(q.reached_vertices),
                                 static_cast<double>(q.below_straight_line)};

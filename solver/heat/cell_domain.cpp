@@ -278,7 +278,7 @@ std::unique_ptr<const UnitField> CellDomain::unit_field(const HeatField& heat,
   return std::make_unique<const CellField>(*this, heat, t, work);
 }
 
-void CellDomain::check_straight_lines(const SourceSet& sources, int threads,
+void CellDomain::check_straight_lines(const SourceSet& sources, BelowLine below, int threads,
                                       DistanceResult& result) const {
   if (given->positions.empty() || !given->lengths_are_straight) {
     result.quality.reached_vertices = count_reached(result.distances);
@@ -299,7 +299,7 @@ void CellDomain::check_straight_lines(const SourceSet& sources, int threads,
     lines.push_back({at, at, 0.0});
   }
   geotherm::check_straight_lines(given->positions, StraightLine(lines, unit), unit, 1,
-                                 bound_tolerance(MethodKind::kHeat), threads, result);
+                                 bound_tolerance(MethodKind::kHeat), below, threads, result);
 }
 
 }  // namespace geotherm

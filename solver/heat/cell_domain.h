@@ -31,7 +31,7 @@ struct CellDomain final : Domain {
   Result<SourceAnchors> place(const SourceSet& sources) const override;
   std::unique_ptr<const UnitField> unit_field(const HeatField& heat, const PerComponent& t,
                                               const Workspace& work) const override;
-  void check_straight_lines(const SourceSet& sources, int threads,
+  void check_straight_lines(const SourceSet& sources, BelowLine below, int threads,
                             DistanceResult& result) const override;
 
   /// Where the corners of a cell lie, up to a shift: their positions, in units of the domain, or

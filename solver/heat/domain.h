@@ -20,6 +20,7 @@
 // works on every space; surface.h is the domain of triangle meshes.
 namespace geotherm {
 
+enum class BelowLine;
 struct HeatField;
 struct Surface;
 struct Workspace;
@@ -129,8 +130,9 @@ struct Domain {
   }
 
   /// Fills in how many distances are below the straight line to the nearest source
-  /// (Quality::below_straight_line), where the space lies in R^3.
-  virtual void check_straight_lines(const SourceSet& sources, int threads,
+  /// (Quality::below_straight_line), and raises them where `below` says so, where the space lies in
+  /// R^3 and its lengths are those of lines.
+  virtual void check_straight_lines(const SourceSet& sources, BelowLine below, int threads,
                                     DistanceResult& result) const = 0;
 
   /// Itself, where it is a triangle mesh.

@@ -193,7 +193,7 @@ std::unique_ptr<const UnitField> GridDomain::unit_field(const HeatField& heat,
   return std::make_unique<const GridField>(*this, heat, t, work);
 }
 
-void GridDomain::check_straight_lines(const SourceSet& sources, int threads,
+void GridDomain::check_straight_lines(const SourceSet& sources, BelowLine below, int threads,
                                       DistanceResult& result) const {
   if (!lattice->is_uniform()) {  // travel time is no length
     result.quality.reached_vertices = count_reached(result.distances);
@@ -214,7 +214,7 @@ void GridDomain::check_straight_lines(const SourceSet& sources, int threads,
   std::vector<Vec3> positions(static_cast<std::size_t>(input_vertices));
   for (Index v = 0; v < input_vertices; ++v) positions[v] = grid.position(v);
   geotherm::check_straight_lines(positions, StraightLine(lines, unit), unit, 1,
-                                 bound_tolerance(MethodKind::kHeat), threads, result);
+                                 bound_tolerance(MethodKind::kHeat), below, threads, result);
 }
 
 }  // namespace geotherm

@@ -9,6 +9,7 @@
 #include <span>
 #include <utility>
 
+#include "solver/heat/near_march.h"
 #include "solver/heat/surface.h"
 #include "solver/polyhedral/wave_front.h"
 #include "solver/polyhedral/wave_surface.h"
@@ -18,8 +19,6 @@ namespace {
 
 /// The radius, in lengths that the triangulation resolves (ComponentSize).
 constexpr double kRadius = 8;
-/// Up to this share of the radius the near-exact distances count alone.
-constexpr double kInner = 0.5;
 /// Faces that a wave walks over for one source of a component: in proportion to the share of its
 /// vertices that had to be inserted, up to the most; many sources walk over a tenth of its faces
 /// together, or over those at the sources.
@@ -182,8 +181,8 @@ class Neighbourhood {
       const double distance = std::max(wave.distances()[rank], 0.0);
       const double limit = std::min(kRadius / per_length_, outward + inward.distances()[rank]);
       if (!(distance < limit)) continue;
-      const double share = std::max(0.0, (distance / limit - kInner) / (1 - kInner));
-      out.push_back({rows_.keys()[tables.vertex_of_rank[rank]], distance, share});
+      out.push_back(
+          {rows_.keys()[tables.vertex_of_rank[rank]], distance, share_of_heat(distance, limit)});
     }
   }
 
@@ -271,12 +270,38 @@ double least_distance(const WaveFront& wave, const WaveTables& tables,
   return std::max(least, 0.0);
 }
 
+/// By a march over the triangulation, where it is good enough to do without waves; nothing around
+/// curves, whose fronts are no circles.
+void march_in_component(const Surface& surface, const SourceAnchors& anchors, Index component,
+                        std::vector<NearVertex>& out) {
+  const OperatorMesh& mesh = *surface.operators;
+  if (surface.asked == LaplacianKind::kCotan)
+    return;  // obtuse faces make the march worse than heat
+  for (const auto& piece : anchors.pieces) {
+    if (piece.from != piece.to && mesh.components.of[mesh.faces[piece.face][0]] == component)
+      return;
+  }
+  std::vector<NearDistance> seeds;
+  for (const auto& anchor : anchors.anchors) {
+    if (mesh.components.of[anchor.row] == component) seeds.push_back({anchor.row, anchor.offset});
+  }
+  const auto found = march_nearest(mesh.corners, mesh.faces, mesh.layout, seeds,
+                                   near_count(seeds.size(), surface.components[component].cells));
+  for (const NearDistance& near : found) {
+    const double share = share_of_heat(near.distance, found.back().distance);
+    if (share < 1) out.push_back({near.vertex, near.distance, share});
+  }
+}
+
 /// Errors: kOutOfMemory.
 Result<void> add_component(const Surface& surface, const SourceAnchors& anchors, Index component,
                            std::vector<NearVertex>& out) {
   Neighbourhood near(surface, anchors, component);
   const std::size_t faces = faces_worth_walking(surface.components[component], near.source_count());
-  if (faces == 0) return {};
+  if (faces == 0) {
+    march_in_component(surface, anchors, component, out);
+    return {};
+  }
   near.gather(faces);
   const auto local = near.surface();
   if (!local) return local.error();

@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "solver/accuracy/check_heat.h"
+#include "solver/accuracy/distance_bounds.h"
 #include "solver/core/parallel.h"
 #include "solver/core/stopwatch.h"
 #include "solver/heat/factor_memory.h"
@@ -107,25 +108,30 @@ Result<int> threads_in_memory(const QueryPipeline& p, const std::vector<Group>& 
 double query_nanoseconds(const QueryPipeline& p, bool quality) {
   constexpr double kEntry = 1;  // the factors are read three times
   constexpr double kIteration = 75, kIterations = 2;
-  constexpr double kFace = 10, kFaceJudged = 70, kNearField = 1e5;
+  constexpr double kFace = 10, kFaceJudged = 70, kNearField = 1e5, kNearMarch = 5e4;
   const double faces = p.domain.input->cell_count();
   const auto entries = static_cast<double>(p.poisson.stats().nonzeros);
   const double solves =
       entries > 0 ? kEntry * entries : kIteration * kIterations * faces * std::sqrt(faces);
   const bool inserted = std::ranges::any_of(
       p.domain.components, [](const ComponentSize& size) { return size.inserted > 0; });
-  const double near = inserted ? kNearField : 0;
+  const double near = inserted ? kNearField : kNearMarch;
   return solves + near + (kFace + (quality ? kFaceJudged : 0)) * faces;
 }
 
-/// Near fields of all sets; none in the variant classic and in the penalty mode. Errors:
-/// those of Domain::near_field().
+/// Whether what is known without heat comes into the answer: near fields and straight lines. The
+/// variant classic is the method as published, and the penalty mode shows what it does at sources.
+bool uses_what_is_known(const QueryPipeline& p) {
+  return p.options.variant != Variant::kClassic &&
+         p.options.constraint.mode != ConstraintMode::kPenalty;
+}
+
+/// Near fields of all sets, where they are used. Errors: those of Domain::near_field().
 Result<std::vector<std::vector<NearVertex>>> near_fields(const QueryPipeline& p,
                                                          const std::vector<SourceAnchors>& anchors,
                                                          int threads) {
   std::vector<std::vector<NearVertex>> near;
-  if (p.options.variant == Variant::kClassic) return near;
-  if (p.options.constraint.mode == ConstraintMode::kPenalty) return near;
+  if (!uses_what_is_known(p)) return near;
   near.resize(anchors.size());
   std::vector<Result<void>> done(anchors.size());
   parallel_for(threads, std::ssize(anchors), 1, [&](std::int64_t begin, std::int64_t end) {
@@ -174,6 +180,12 @@ Result<void> solve_group(const QueryPipeline& p, std::span<const SourceSet> sets
   const ConstraintMode mode = p.options.constraint.mode;
   const auto normalized = normalize(p.domain, *answer, anchors, *near, mode, work.threads, results);
   if (!normalized) return with_cure(normalized.error());
+  const BelowLine below = uses_what_is_known(p) ? BelowLine::kRaised : BelowLine::kKept;
+  if (query.quality || below == BelowLine::kRaised) {
+    for (std::size_t c = 0; c < anchors.size(); ++c) {
+      p.domain.check_straight_lines(sets[c], below, work.threads, results[c]);
+    }
+  }
   const double poisson_ms = watch.lap();
   if (query.quality && !report(progress, "solve", kSolvedShare)) return cancelled_error();
 
@@ -194,7 +206,6 @@ Result<void> solve_group(const QueryPipeline& p, std::span<const SourceSet> sets
                            mode == ConstraintMode::kPinSources, work.threads);
       const CellCounts cells =
           field->inspect(phi, column, anchors[c], held_at_zero(p), work.threads, result.quality);
-      p.domain.check_straight_lines(sets[c], work.threads, result);
       const auto assessed = assess_heat(p.options, extreme_time(p.times, anchors[c]), cells, result,
                                         0, p.domain.input->cell_names()[1]);
       if (!assessed) return assessed.error();

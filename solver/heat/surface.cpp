@@ -264,10 +264,10 @@ Result<std::vector<NearVertex>> Surface::near_field(const SourceAnchors& anchors
   return find_near_field(*this, anchors);
 }
 
-void Surface::check_straight_lines(const SourceSet& sources, int threads,
+void Surface::check_straight_lines(const SourceSet& sources, BelowLine below, int threads,
                                    DistanceResult& result) const {
-  geotherm::check_straight_lines(*this, sources, 1, bound_tolerance(MethodKind::kHeat), threads,
-                                 result);
+  geotherm::check_straight_lines(*this, sources, 1, bound_tolerance(MethodKind::kHeat), below,
+                                 threads, result);
 }
 
 }  // namespace geotherm

@@ -43,7 +43,7 @@ struct Surface final : IntrinsicSurface, Domain {
   std::unique_ptr<const UnitField> unit_field(const HeatField& heat, const PerComponent& t,
                                               const Workspace& work) const override;
   Result<std::vector<NearVertex>> near_field(const SourceAnchors& anchors) const override;
-  void check_straight_lines(const SourceSet& sources, int threads,
+  void check_straight_lines(const SourceSet& sources, BelowLine below, int threads,
                             DistanceResult& result) const override;
   const Surface* surface() const override { return this; }
 

@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: MIT
+#include "solver/heat/near_march.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <functional>
+#include <queue>
+#include <utility>
+
+namespace geotherm {
+namespace {
+
+/// Vertices that are walked around one source: some eight edges far on even meshes, for a few
+/// hundredths of what a query of 15,000 vertices costs.
+constexpr double kNearOfSource = 200;
+/// And at most this share of all: on coarse meshes, too, most of the answer is heat's, so that
+/// errors fall as meshes get finer.
+constexpr double kNearShare = 0.07;
+/// Of more sources each has a small neighbourhood, and all of them cost as much as heat.
+constexpr std::size_t kMaxMarchSources = 64;
+
+/// The straight line may pass beside the side by this share of it, at a corner that both sides of
+/// it meet.
+constexpr double kTolerance = 1e-9;
+/// Up to this share of the limit heat's distance does not count.
+constexpr double kHeatless = 0.5;
+
+/// Vertices that have a distance: a hash table with open addressing, as large as the march may get,
+/// in place of an entry for every vertex of the mesh.
+class Reached {
+ public:
+  struct Entry {
+    Index vertex = kNoIndex;
+    bool done = false;  ///< the distance is the last
+    double distance = 0;
+  };
+
+  explicit Reached(std::size_t count)
+      : entries_(std::bit_ceil(8 * std::max<std::size_t>(count, 8))) {}
+
+  /// The entry of a vertex, or the free one where it belongs. It holds until the next find() of a
+  /// vertex that has none.
+  Entry& find(Index vertex) {
+    if (2 * used_ >= entries_.size()) grow();
+    return entries_[slot_of(vertex)];
+  }
+  /// Fills a free entry.
+  void fill(Entry& entry, Index vertex) {
+    entry.vertex = vertex;
+    ++used_;
+  }
+
+ private:
+  static constexpr std::uint64_t kGolden = 0x9e3779b97f4a7c15;  ///< 2^64 over the golden ratio
+
+  std::size_t slot_of(Index vertex) const {
+    const std::size_t mask = entries_.size() - 1;
+    std::size_t at = (static_cast<std::uint64_t>(vertex) * kGolden >> 32) & mask;
+    while (entries_[at].vertex != kNoIndex && entries_[at].vertex != vertex) at = (at + 1) & mask;
+    return at;
+  }
+  void grow() {
+    const std::vector<Entry> old = std::exchange(entries_, std::vector<Entry>(2 * entries_.size()));
+    for (const Entry& entry : old) {
+      if (entry.vertex != kNoIndex) entries_[slot_of(entry.vertex)] = entry;
+    }
+  }
+
+  std::vector<Entry> entries_;
+  std::size_t used_ = 0;
+};
+
+/// A place in the plane of a face.
+struct Place {
+  double x, y;
+};
+
+double length_of(double x, double y) { return std::sqrt(x * x + y * y); }
+
+std::array<Place, 3> places_of(const FaceLayout& face) {
+  return {Place{0, 0}, Place{face.base, 0}, Place{face.x, face.height}};
+}
+
+/// From the source, which is `from_a` away from a and `from_b` from b and lies beyond them, to
+/// `target`; kUnreached where the straight line does not pass between a and b.
+double straight_through(const Place& a, const Place& b, const Place& target, double from_a,
+                        double from_b) {
+  const Place side{b.x - a.x, b.y - a.y}, apart{target.x - a.x, target.y - a.y};
+  const double length = length_of(side.x, side.y);
+  const double along = (side.x * apart.x + side.y * apart.y) / length;
+  const double height = std::abs(side.x * apart.y - side.y * apart.x) / length;
+  const double source = (length + (from_a - from_b) * (from_a + from_b) / length) / 2;
+  const double square = (from_a - source) * (from_a + source);
+  if (!(square >= 0)) return kUnreached;
+  const double depth = std::sqrt(square);
+  const double crossing = source + (along - source) * depth / (depth + height);
+  const bool passes = crossing >= -kTolerance * length && crossing <= (1 + kTolerance) * length;
+  return passes ? length_of(along - source, depth + height) : kUnreached;
+}
+
+}  // namespace
+
+std::size_t near_count(std::size_t sources, double faces) {
+  if (sources > kMaxMarchSources) return 0;
+  const double vertices = faces / 2;  // of a closed surface
+  return static_cast<std::size_t>(
+      std::min(kNearOfSource * static_cast<double>(sources), kNearShare * vertices));
+}
+
+std::vector<NearDistance> march_nearest(const CornerTable& corners, std::span<const Face> faces,
+                                        std::span<const FaceLayout> layout,
+                                        std::span<const NearDistance> seeds, std::size_t count) {
+  std::vector<NearDistance> out;
+  if (count == 0) return out;
+  using Waiting = std::pair<double, Index>;
+  std::priority_queue<Waiting, std::vector<Waiting>, std::greater<>> waiting;
+  Reached reached(count);
+  const auto lower = [&](Index vertex, double distance) {
+    if (!(distance < kUnreached)) return;
+    Reached::Entry& entry = reached.find(vertex);
+    if (entry.vertex == kNoIndex) {
+      reached.fill(entry, vertex);
+    } else if (entry.done || !(distance < entry.distance)) {
+      return;
+    }
+    entry.distance = distance;
+    waiting.emplace(distance, vertex);
+  };
+  for (const NearDistance& seed : seeds) lower(seed.vertex, seed.distance);
+  while (!waiting.empty()) {
+    const auto [distance, vertex] = waiting.top();
+    if (out.size() >= count && distance > out.back().distance) break;
+    waiting.pop();
+    if (std::exchange(reached.find(vertex).done, true)) continue;
+    out.push_back({vertex, distance});
+    for (const Side corner : corners.at(vertex)) {
+      const auto face = static_cast<std::size_t>(face_of(corner));
+      const auto at = places_of(layout[face]);
+      const int here = corner_of(corner), next = next_corner(here), last = previous_corner(here);
+      for (const auto& [to, other] : {std::pair(next, last), std::pair(last, next)}) {
+        lower(faces[face][to], distance + length_of(at[to].x - at[here].x, at[to].y - at[here].y));
+        const Reached::Entry& beside = reached.find(faces[face][other]);
+        if (beside.vertex == kNoIndex || !beside.done) continue;
+        lower(faces[face][to],
+              straight_through(at[here], at[other], at[to], distance, beside.distance));
+      }
+    }
+  }
+  return out;
+}
+
+double share_of_heat(double distance, double limit) {
+  return std::clamp((distance / limit - kHeatless) / (1 - kHeatless), 0.0, 1.0);
+}
+
+}  // namespace geotherm

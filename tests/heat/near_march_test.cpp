@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: MIT
+// What is known around sources without heat, and that no answer is below the straight line.
+#include "solver/heat/near_march.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "geotherm/build_method.h"
+#include "tests/support/mesh_zoo.h"
+#include "tests/support/solve.h"
+
+namespace geotherm::test {
+namespace {
+
+// Lengths that were computed on the way from the source, a rounding at every face.
+constexpr double kRounding = 1e-12;
+
+/// A mesh as marches take it.
+struct Marched {
+  CornerTable corners;
+  std::vector<FaceLayout> layout;
+
+  explicit Marched(const TriangleMesh& mesh) : corners(mesh.vertex_count(), mesh.faces()) {
+    for (const Face& f : mesh.faces()) {
+      const auto length = [&](int k) {
+        return (mesh.positions()[f[k]] - mesh.positions()[f[next_corner(k)]]).norm();
+      };
+      layout.push_back(lay_out({length(0), length(1), length(2)}));
+    }
+  }
+};
+
+TEST(NearMarch, IsExactInThePlane) {
+  const auto mesh = finish(random_delaunay(3000, 5));
+  const Marched marched(*mesh);
+  const Vec3 middle(0.5, 0.5, 0);
+  const auto from = static_cast<Index>(
+      std::ranges::min_element(mesh->positions(), {},
+                               [&](const Vec3& p) { return (p - middle).norm(); }) -
+      mesh->positions().begin());
+  const std::vector<NearDistance> seeds = {{from, 0.0}};
+  const auto near = march_nearest(marched.corners, mesh->faces(), marched.layout, seeds, 500);
+  ASSERT_EQ(near.size(), 500u);
+  std::vector<double> all;
+  for (const Vec3& p : mesh->positions()) all.push_back((p - mesh->positions()[from]).norm());
+  for (const NearDistance& each : near) EXPECT_NEAR(each.distance, all[each.vertex], kRounding);
+  std::ranges::sort(all);
+  EXPECT_NEAR(near.back().distance, all[499], kRounding) << "they are the nearest ones";
+}
+
+TEST(NearMarch, IsExactAroundTheTipOfACone) {
+  const Index sectors = 5, rings = 12;
+  const auto mesh = finish(pyramid(sectors, rings, M_PI / 3));
+  const Marched marched(*mesh);
+  const std::vector<NearDistance> seeds = {{0, 0.0}};
+  const auto near = march_nearest(marched.corners, mesh->faces(), marched.layout, seeds, 100);
+  for (const NearDistance& each : near) {
+    EXPECT_NEAR(each.distance, (mesh->positions()[each.vertex] - mesh->positions()[0]).norm(),
+                kRounding);
+  }
+}
+
+TEST(NearMarch, TakesInAllThatAreAsFarAsTheLast) {
+  const auto mesh = finish(plane_grid(20, 20, 20, 20));
+  const Marched marched(*mesh);
+  const std::vector<NearDistance> seeds = {{grid_vertex(20, 10, 10), 0.0}};
+  // The source, then four at 1.
+  const auto near = march_nearest(marched.corners, mesh->faces(), marched.layout, seeds, 3);
+  EXPECT_EQ(near.size(), 5u);
+}
+
+TEST(NearField, IsExactBesideSourcesInThePlane) {
+  const auto mesh = finish(jittered_plane(60, 0.2, 3));
+  const Index source = grid_vertex(60, 30, 30);
+  const auto distances = solve(mesh, {source}).distances;
+  HeatOptions classic;
+  classic.variant = Variant::kClassic;
+  const auto published = solve(mesh, {source}, classic).distances;
+  // A disc of as many vertices in a square of 61 x 61: half of its radius is sure.
+  const double sure = std::sqrt(near_count(1, mesh->face_count()) / (60 * 60 * M_PI)) / 2;
+  int count = 0;
+  double off = 0;
+  for (Index v = 0; v < mesh->vertex_count(); ++v) {
+    const double line = (mesh->positions()[v] - mesh->positions()[source]).norm();
+    if (line > 0.9 * sure) continue;
+    ++count;
+    EXPECT_NEAR(distances[v], line, kRounding) << "vertex " << v;
+    off = std::max(off, std::abs(published[v] - line));
+  }
+  EXPECT_GT(count, 20);
+  EXPECT_GT(off, 1e-4) << "the variant classic is the method as published";
+}
+
+TEST(NearField, IsLeftOutAroundCurves) {
+  const auto mesh = finish(plane_grid(40, 40, 1, 1));
+  SourceSet curve;
+  for (Index i = 0; i < 40; ++i)
+    curve.edges.push_back({grid_vertex(40, 20, i), grid_vertex(40, 20, i + 1)});
+  const auto distances = solve(method_of(mesh), curve).distances;
+  // Circles around the corners of the curve would be wrong between them.
+  for (Index v = 0; v < mesh->vertex_count(); ++v) {
+    EXPECT_NEAR(distances[v], std::abs(mesh->positions()[v].x() - 0.5), 1e-3);
+  }
+}
+
+TEST(StraightLines, NoAnswerIsBelowThem) {
+  for (const ZooMesh& each : zoo(kRegular)) {
+    SCOPED_TRACE(each.name);
+    const auto mesh = each.mesh();
+    const std::vector<Index> sources = {mesh->faces().front()[0], mesh->faces().back()[1]};
+    const auto distances = solve(mesh, sources).distances;
+    for (Index v = 0; v < mesh->vertex_count(); ++v) {
+      double line = kUnreached;
+      for (const Index s : sources) {
+        line = std::min(line, (mesh->positions()[v] - mesh->positions()[s]).norm());
+      }
+      EXPECT_GE(distances[v], line * (1 - kRounding)) << "vertex " << v;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace geotherm::test
