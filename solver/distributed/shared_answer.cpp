@@ -74,20 +74,34 @@ BlockFaces::Sums BlockFaces::inspect(const std::vector<double>& phi,
 }
 
 std::vector<double> distances_of(const SharedTask& task, const std::vector<double>& phi,
-                                 SharedAnswer& out) {
+                                 Quality& quality) {
   std::vector<double> distances(static_cast<std::size_t>(task.part.own), kUnreached);
-  double most = 0, sum = 0, unreached = 0, clamped = 0;
-  std::array<double, 1> least = {kUnreached};
+  double most = 0, clamped = 0;
   for (Index v = 0; v < task.part.own; ++v) {
     const Index component = task.components.of[v];
-    if (component == kNoIndex || !task.reached[static_cast<std::size_t>(component)]) {
+    if (component == kNoIndex || !task.reached[static_cast<std::size_t>(component)]) continue;
+    distances[v] = std::max(phi[v], 0.0);
+    most = std::max(most, distances[v]);
+  }
+  most = task.ranks.most(most);
+  for (Index v = 0; v < task.part.own; ++v) {
+    clamped += distances[v] < kUnreached && phi[v] < -kRoundOffOfDistance * most ? 1 : 0;
+  }
+  quality.clamped_vertices = static_cast<Index>(task.ranks.sum(clamped));
+  return distances;
+}
+
+void measure(const SharedTask& task, std::span<const double> distances, SharedAnswer& out) {
+  double most = 0, sum = 0, unreached = 0;
+  std::array<double, 1> least = {kUnreached};
+  for (const double distance : distances) {
+    if (!(distance < kUnreached)) {
       ++unreached;
       continue;
     }
-    distances[v] = std::max(phi[v], 0.0);
-    most = std::max(most, distances[v]);
-    least[0] = std::min(least[0], distances[v]);
-    sum += distances[v];
+    most = std::max(most, distance);
+    least[0] = std::min(least[0], distance);
+    sum += distance;
   }
   out.most = task.ranks.most(most);
   task.ranks.combine(least, RankGroup::Combination::kLeast);
@@ -95,17 +109,11 @@ std::vector<double> distances_of(const SharedTask& task, const std::vector<doubl
   out.unreached = static_cast<GlobalIndex>(task.ranks.sum(unreached));
   const auto reached = static_cast<double>(task.part.vertices - out.unreached);
   out.mean = task.ranks.sum(sum) / reached;
-  for (Index v = 0; v < task.part.own; ++v) {
-    clamped += distances[v] < kUnreached && phi[v] < -kRoundOffOfDistance * out.most ? 1 : 0;
-  }
-  out.quality.clamped_vertices = static_cast<Index>(task.ranks.sum(clamped));
-  return distances;
 }
 
 Result<void> check_answer(const SharedTask& task, const std::vector<BlockFaces*>& faces,
                           const SharedHeat& heat, std::vector<double> phi,
-                          const std::vector<double>& b, std::vector<double>& distances,
-                          SharedAnswer& out) {
+                          const std::vector<double>& b, SharedAnswer& out) {
   phi.resize(static_cast<std::size_t>(task.part.size()), 0.0);
   Halo(task.ranks, task.part, heat.beside).fetch(task.ranks, phi);
   std::array<double, 8> sums{};
@@ -135,10 +143,6 @@ Result<void> check_answer(const SharedTask& task, const std::vector<BlockFaces*>
   q.edges_checked = true;
   DistanceResult result;
   result.quality = q;
-  result.distances = std::move(distances);
-  check_lines(task, result);
-  distances = std::move(result.distances);
-  q = result.quality;
   const CellCounts cells = {static_cast<Index>(sums[4]), static_cast<Index>(sums[5])};
   const auto assessed =
       assess_heat(task.options, task.times.extreme, cells, result, kUsualHeatResidual);

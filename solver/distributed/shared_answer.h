@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "geotherm/distance_method.h"
@@ -40,16 +41,18 @@ class BlockFaces {
   FaceField field_;
 };
 
-/// Makes distances of phi, of own vertices, and their range, mean and counts in `out`. All ranks
+/// Distances of own vertices as phi has them; those below 0 become 0 and are counted. All ranks
 /// call it.
 std::vector<double> distances_of(const SharedTask& task, const std::vector<double>& phi,
-                                 SharedAnswer& out);
+                                 Quality& quality);
 
-/// The quality figures, and what a person should know of them; distances below the straight lines
-/// are raised to these. All ranks call it. Errors (the same on all): those of assess_heat().
+/// Range, mean and counts of the distances of own vertices. All ranks call it.
+void measure(const SharedTask& task, std::span<const double> distances, SharedAnswer& out);
+
+/// The quality figures but for those of the distances themselves, and what a person should know of
+/// all of them. All ranks call it. Errors (the same on all): those of assess_heat().
 Result<void> check_answer(const SharedTask& task, const std::vector<BlockFaces*>& faces,
                           const SharedHeat& heat, std::vector<double> phi,
-                          const std::vector<double>& b, std::vector<double>& distances,
-                          SharedAnswer& out);
+                          const std::vector<double>& b, SharedAnswer& out);
 
 }  // namespace geotherm

@@ -9,6 +9,7 @@
 #include "solver/geometry/clean_faces.h"
 #include "solver/geometry/intrinsic_refinement.h"
 #include "solver/geometry/tufted_cover.h"
+#include "solver/heat/normalize.h"
 
 namespace geotherm {
 namespace {
@@ -118,22 +119,26 @@ std::vector<Warning> notes_of(const RankGroup& ranks, const MeshPart& part,
   return notes;
 }
 
-void check_lines(const SharedTask& task, DistanceResult& result) {
+std::vector<SharedSource> sources_of(const SharedTask& task) {
+  const MeshPart& part = task.part;
+  std::vector<SharedSource> own;
+  for (Index v = 0; v < part.own; ++v) {
+    const Vec3& at = part.positions[v];
+    if (task.is_source[v]) own.push_back({part.id[v], task.components.of[v], at[0], at[1], at[2]});
+  }
+  return task.ranks.gather(own);
+}
+
+void check_lines(const SharedTask& task, std::span<const SharedSource> sources,
+                 DistanceResult& result) {
   const MeshPart& part = task.part;
   const auto own = std::span(part.positions).first(static_cast<std::size_t>(part.own));
-  std::vector<std::array<double, 3>> places;
-  for (Index v = 0; v < part.own; ++v) {
-    const Vec3& at = own[v];
-    if (task.is_source[v]) places.push_back({at[0], at[1], at[2]});
-  }
-  std::vector<LineSource> sources;
-  for (const auto& [x, y, z] : task.ranks.gather(places)) {
-    sources.push_back({Vec3(x, y, z), Vec3(x, y, z), 0.0});
-  }
+  std::vector<LineSource> lines;
+  for (const SharedSource& source : sources) lines.push_back({source.place(), source.place(), 0.0});
   const double edge = task.components.mean_edge;
-  check_straight_lines(own, StraightLine(sources, edge), edge, 1,
-                       bound_tolerance(MethodKind::kHeat), BelowLine::kRaised, task.threads,
-                       result);
+  const BelowLine below = uses_what_is_known(task.options) ? BelowLine::kRaised : BelowLine::kKept;
+  check_straight_lines(own, StraightLine(lines, edge), edge, 1, bound_tolerance(MethodKind::kHeat),
+                       below, task.threads, result);
   Quality& q = result.quality;
   std::array<double, 2> sums = {static_cast<double>(q.reached_vertices),
                                 static_cast<double>(q.below_straight_line)};

@@ -19,8 +19,20 @@ std::vector<Warning> notes_of(const RankGroup& ranks, const MeshPart& part,
                               const SharedComponents& components, std::span<const MeshBlock> blocks,
                               const MethodOptions& options, double repeated);
 
+/// A source vertex, as all ranks know it.
+struct SharedSource {
+  GlobalIndex id;
+  Index component;
+  double x, y, z;  ///< in MeshPart::unit
+
+  Vec3 place() const { return {x, y, z}; }
+};
+std::vector<SharedSource> sources_of(const SharedTask& task);
+
 /// Holds the distances of own vertices (`result.distances`, in MeshPart::unit) against the straight
-/// lines from the sources; the figures are those of all ranks, clamped_reach in model units.
-void check_lines(const SharedTask& task, DistanceResult& result);
+/// lines from the sources, and raises what is below where the method is not the published one; the
+/// figures are those of all ranks, clamped_reach in model units.
+void check_lines(const SharedTask& task, std::span<const SharedSource> sources,
+                 DistanceResult& result);
 
 }  // namespace geotherm

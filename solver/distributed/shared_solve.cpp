@@ -13,6 +13,7 @@
 #include "solver/core/text.h"
 #include "solver/distributed/shared_answer.h"
 #include "solver/distributed/shared_heat.h"
+#include "solver/distributed/shared_near.h"
 #include "solver/distributed/shared_notes.h"
 #include "solver/distributed/shared_poisson.h"
 #include "solver/distributed/shared_waves.h"
@@ -179,10 +180,12 @@ Result<SharedAnswer> solve_over_ranks(const RankGroup& ranks, const std::string&
     const auto waves =
         wave_over_ranks(ranks, part, *blocks, *is_source, kBand * components.mean_edge);
     if (!waves) return waves.error();
-    hand_over(ranks, part, distances_of(task, waves->distances, out), out);
+    out.quality = waves->quality;
+    const auto distances = distances_of(task, waves->distances, out.quality);
+    measure(task, distances, out);
+    hand_over(ranks, part, distances, out);
     out.timing.query = lap();
     out.rounds = waves->rounds;
-    out.quality = waves->quality;
     out.warnings = notes;
     to_model_units(part.unit, out);
     return out;
@@ -232,13 +235,20 @@ Result<SharedAnswer> solve_over_ranks(const RankGroup& ranks, const std::string&
   report(progress, "poisson", 0.7);
   const auto phi = solve_poisson(task, *blocks, b, out.quality.iterations_poisson);
   if (!phi) return phi.error();
-  std::vector<double> distances = distances_of(task, *phi, out);
+  DistanceResult found;
+  found.quality = out.quality;
+  found.distances = distances_of(task, *phi, found.quality);
+  const std::vector<SharedSource> places = sources_of(task);
+  add_near_field(task, *blocks, places, found.distances);
+  check_lines(task, places, found);
+  out.quality = found.quality;
+  const std::vector<double>& distances = found.distances;
+  measure(task, distances, out);
   if (check) out.error = verdict_over_ranks(ranks, part, rules.flip, distances, waves, waves_ms);
   out.timing.poisson = lap();
   out.timing.query = out.timing.diffuse + out.timing.gradient + out.timing.poisson;
   report(progress, "figures", 0.9);
-  if (auto right = check_answer(task, faces, *heat, *phi, b, distances, out); !right)
-    return right.error();
+  if (auto right = check_answer(task, faces, *heat, *phi, b, out); !right) return right.error();
   hand_over(ranks, part, distances, out);
   out.warnings.insert(out.warnings.begin(), notes.begin(), notes.end());
   out.t = times->model_t;

@@ -10,6 +10,13 @@
 
 namespace geotherm {
 
+/// Whether what is known without heat comes into the answer: near fields and straight lines. The
+/// variant classic is the method as published, and the penalty mode shows what it does at sources.
+inline bool uses_what_is_known(const HeatOptions& options) {
+  return options.variant != Variant::kClassic &&
+         options.constraint.mode != ConstraintMode::kPenalty;
+}
+
 /// Makes distances of a Poisson answer (n x K, elimination order, units of the domain), one
 /// source set a column. Under kPinSources the anchors have their value exactly; otherwise each
 /// component is shifted so that phi agrees with the anchors in the mean: `answer.shift` says by how

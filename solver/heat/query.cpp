@@ -119,19 +119,12 @@ double query_nanoseconds(const QueryPipeline& p, bool quality) {
   return solves + near + (kFace + (quality ? kFaceJudged : 0)) * faces;
 }
 
-/// Whether what is known without heat comes into the answer: near fields and straight lines. The
-/// variant classic is the method as published, and the penalty mode shows what it does at sources.
-bool uses_what_is_known(const QueryPipeline& p) {
-  return p.options.variant != Variant::kClassic &&
-         p.options.constraint.mode != ConstraintMode::kPenalty;
-}
-
 /// Near fields of all sets, where they are used. Errors: those of Domain::near_field().
 Result<std::vector<std::vector<NearVertex>>> near_fields(const QueryPipeline& p,
                                                          const std::vector<SourceAnchors>& anchors,
                                                          int threads) {
   std::vector<std::vector<NearVertex>> near;
-  if (!uses_what_is_known(p)) return near;
+  if (!uses_what_is_known(p.options)) return near;
   near.resize(anchors.size());
   std::vector<Result<void>> done(anchors.size());
   parallel_for(threads, std::ssize(anchors), 1, [&](std::int64_t begin, std::int64_t end) {
@@ -180,11 +173,12 @@ Result<void> solve_group(const QueryPipeline& p, std::span<const SourceSet> sets
   const ConstraintMode mode = p.options.constraint.mode;
   const auto normalized = normalize(p.domain, *answer, anchors, *near, mode, work.threads, results);
   if (!normalized) return with_cure(normalized.error());
-  const BelowLine below = uses_what_is_known(p) ? BelowLine::kRaised : BelowLine::kKept;
-  if (query.quality || below == BelowLine::kRaised) {
-    for (std::size_t c = 0; c < anchors.size(); ++c) {
-      p.domain.check_straight_lines(sets[c], below, work.threads, results[c]);
-    }
+  const BelowLine below = uses_what_is_known(p.options) ? BelowLine::kRaised : BelowLine::kKept;
+  for (std::size_t c = 0; c < anchors.size(); ++c) {
+    if (!query.quality && below == BelowLine::kKept) break;
+    const Quality before = results[c].quality;
+    p.domain.check_straight_lines(sets[c], below, work.threads, results[c]);
+    if (!query.quality) results[c].quality = before;  // figures that nobody asked for
   }
   const double poisson_ms = watch.lap();
   if (query.quality && !report(progress, "solve", kSolvedShare)) return cancelled_error();

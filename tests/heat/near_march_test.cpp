@@ -15,7 +15,7 @@ namespace geotherm::test {
 namespace {
 
 // Lengths that were computed on the way from the source, a rounding at every face.
-constexpr double kRounding = 1e-12;
+constexpr double kUnfolded = 1e-12;
 
 /// A mesh as marches take it.
 struct Marched {
@@ -45,9 +45,9 @@ TEST(NearMarch, IsExactInThePlane) {
   ASSERT_EQ(near.size(), 500u);
   std::vector<double> all;
   for (const Vec3& p : mesh->positions()) all.push_back((p - mesh->positions()[from]).norm());
-  for (const NearDistance& each : near) EXPECT_NEAR(each.distance, all[each.vertex], kRounding);
+  for (const NearDistance& each : near) EXPECT_NEAR(each.distance, all[each.vertex], kUnfolded);
   std::ranges::sort(all);
-  EXPECT_NEAR(near.back().distance, all[499], kRounding) << "they are the nearest ones";
+  EXPECT_NEAR(near.back().distance, all[499], kUnfolded) << "they are the nearest ones";
 }
 
 TEST(NearMarch, IsExactAroundTheTipOfACone) {
@@ -58,7 +58,7 @@ TEST(NearMarch, IsExactAroundTheTipOfACone) {
   const auto near = march_nearest(marched.corners, mesh->faces(), marched.layout, seeds, 100);
   for (const NearDistance& each : near) {
     EXPECT_NEAR(each.distance, (mesh->positions()[each.vertex] - mesh->positions()[0]).norm(),
-                kRounding);
+                kUnfolded);
   }
 }
 
@@ -86,7 +86,7 @@ TEST(NearField, IsExactBesideSourcesInThePlane) {
     const double line = (mesh->positions()[v] - mesh->positions()[source]).norm();
     if (line > 0.9 * sure) continue;
     ++count;
-    EXPECT_NEAR(distances[v], line, kRounding) << "vertex " << v;
+    EXPECT_NEAR(distances[v], line, kUnfolded) << "vertex " << v;
     off = std::max(off, std::abs(published[v] - line));
   }
   EXPECT_GT(count, 20);
@@ -116,7 +116,7 @@ TEST(StraightLines, NoAnswerIsBelowThem) {
       for (const Index s : sources) {
         line = std::min(line, (mesh->positions()[v] - mesh->positions()[s]).norm());
       }
-      EXPECT_GE(distances[v], line * (1 - kRounding)) << "vertex " << v;
+      EXPECT_GE(distances[v], line * (1 - kUnfolded)) << "vertex " << v;
     }
   }
 }
