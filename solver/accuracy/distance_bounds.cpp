@@ -16,6 +16,9 @@ namespace {
 /// So many pieces are looked at one after the other sooner than a tree is walked.
 constexpr std::size_t kFew = 8;
 
+/// What computing a straight line may leave, in mean edges and of the line: a source stays at 0.
+constexpr double kRounding = 1e-12;
+
 float round_up(double x) { return -round_down(-x); }
 
 /// The straight line from a place to a box.
@@ -36,6 +39,13 @@ Vec3 position_of(const TriangleMesh& mesh, const SurfacePoint& point) {
   // Differences first: far from the origin no digits are lost.
   return first + point.weights[1] * (mesh.positions()[face[1]] - first) +
          point.weights[2] * (mesh.positions()[face[2]] - first);
+}
+
+/// The least coordinates of all, whatever their order.
+Vec3 least_corner(std::span<const LineSource> sources) {
+  Vec3 least = sources.front().from;
+  for (const LineSource& source : sources) least = least.cwiseMin(source.from).cwiseMin(source.to);
+  return least;
 }
 
 std::vector<LineSource> lines_of(const TriangleMesh& mesh, const SourceSet& sources) {
@@ -59,7 +69,7 @@ StraightLine::StraightLine(const TriangleMesh& mesh, const SourceSet& sources, d
     : StraightLine(lines_of(mesh, sources), unit) {}
 
 StraightLine::StraightLine(std::span<const LineSource> sources, double unit)
-    : origin_(sources.front().from), scale_(1 / unit) {
+    : origin_(least_corner(sources)), scale_(1 / unit) {
   for (const LineSource& source : sources) {
     add(place(source.from), place(source.to), source.offset * scale_);
   }
@@ -77,6 +87,7 @@ StraightLine::StraightLine(std::span<const LineSource> sources, double unit)
 }
 
 void StraightLine::add(const Vec3& from, const Vec3& to, double offset) {
+  if (std::ranges::lexicographical_compare(to, from)) return add(to, from, offset);
   const Vec3 along = to - from;
   const double square = along.squaredNorm();
   pieces_.push_back({from, along, square > 0 ? 1 / square : 0.0, offset});
@@ -223,7 +234,9 @@ void check_straight_lines(std::span<const Vec3> positions, const StraightLine& s
                if (straight.is_within(place, raises ? distance : most, hint)) continue;
                const double line = straight.length(place);
                if (!(line < kUnreached)) continue;  // beyond the range of doubles
-               if (raises && line > distance) result.distances[v] = line / to_edges;
+               if (raises && line > distance + kRounding * (1 + line)) {
+                 result.distances[v] = line / to_edges;
+               }
                if (!(line > most)) continue;
                ++sum.below;
                sum.most = std::max(sum.most, 1 - distance / line);

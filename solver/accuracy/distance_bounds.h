@@ -21,8 +21,8 @@ struct LineSource {
 };
 
 /// The straight line from anywhere to the nearest of some sources: vertices, points in faces and
-/// curves, each with its offset added. In units of `unit` (model units), with the first source as
-/// the origin. Immutable; may be asked from several threads.
+/// curves, each with its offset added. In units of `unit` (model units), whatever the
+/// order of the sources. Immutable; may be asked from several threads.
 class StraightLine {
  public:
   /// Preconditions: check_sources() accepts the sources, unit > 0. Cost: O(K log K) for K sources.

@@ -99,7 +99,7 @@ NearVertices march_in_component(const SharedTask& task, std::span<const MeshBloc
 
 void add_near_field(const SharedTask& task, std::span<const MeshBlock> blocks,
                     std::span<const SharedSource> sources, std::span<double> distances) {
-  if (!uses_what_is_known(task.options) || task.options.laplacian == LaplacianKind::kCotan) return;
+  if (!uses_what_is_known(task.options)) return;
   const MeshPart& part = task.part;
   std::vector<SharedSource> left(sources.begin(), sources.end());
   std::ranges::stable_sort(left, {}, &SharedSource::component);

@@ -270,13 +270,11 @@ double least_distance(const WaveFront& wave, const WaveTables& tables,
   return std::max(least, 0.0);
 }
 
-/// By a march over the triangulation, where it is good enough to do without waves; nothing around
-/// curves, whose fronts are no circles.
+/// By a march over the triangulation, where no vertices were inserted; nothing around curves, whose
+/// fronts are no circles.
 void march_in_component(const Surface& surface, const SourceAnchors& anchors, Index component,
                         std::vector<NearVertex>& out) {
   const OperatorMesh& mesh = *surface.operators;
-  if (surface.asked == LaplacianKind::kCotan)
-    return;  // obtuse faces make the march worse than heat
   for (const auto& piece : anchors.pieces) {
     if (piece.from != piece.to && mesh.components.of[mesh.faces[piece.face][0]] == component)
       return;

@@ -130,22 +130,21 @@ std::vector<NearDistance> march_nearest(const CornerTable& corners, std::span<co
     waiting.emplace(distance, vertex);
   };
   for (const NearDistance& seed : seeds) lower(seed.vertex, seed.distance);
-  while (!waiting.empty()) {
+  while (!waiting.empty() && out.size() < count) {
     const auto [distance, vertex] = waiting.top();
-    if (out.size() >= count && distance > out.back().distance) break;
     waiting.pop();
     if (std::exchange(reached.find(vertex).done, true)) continue;
     out.push_back({vertex, distance});
     for (const Side corner : corners.at(vertex)) {
       const auto face = static_cast<std::size_t>(face_of(corner));
       const auto at = places_of(layout[face]);
-      const int here = corner_of(corner), next = next_corner(here), last = previous_corner(here);
+      const int from = corner_of(corner), next = next_corner(from), last = previous_corner(from);
       for (const auto& [to, other] : {std::pair(next, last), std::pair(last, next)}) {
-        lower(faces[face][to], distance + length_of(at[to].x - at[here].x, at[to].y - at[here].y));
+        lower(faces[face][to], distance + length_of(at[to].x - at[from].x, at[to].y - at[from].y));
         const Reached::Entry& beside = reached.find(faces[face][other]);
         if (beside.vertex == kNoIndex || !beside.done) continue;
         lower(faces[face][to],
-              straight_through(at[here], at[other], at[to], distance, beside.distance));
+              straight_through(at[from], at[other], at[to], distance, beside.distance));
       }
     }
   }

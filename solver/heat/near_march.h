@@ -18,11 +18,12 @@ struct NearDistance {
   double distance;
 };
 
-/// The `count` vertices nearest to the seeds and those as far as the last of them, ascending, with
-/// their distances: by marching over faces, each of which takes the source back from the distances
-/// at two corners and sees the third from there, where the straight line passes between the two
-/// (Novotni, Klein 2002), and along edges elsewhere. In a plane that is exact. `corners`: of
-/// `faces`, a Delaunay triangulation. Cost: O(count log count), whatever the mesh has.
+/// The `count` vertices nearest to the seeds, ascending, with their distances: by marching over
+/// faces, each of which takes the source back from the distances at two corners and sees the third
+/// from there, where the straight line passes between the two (Novotni, Klein 2002), and along
+/// edges elsewhere. A vertex that gets a shorter way later passes it on. In a plane that is exact,
+/// but at vertices whose shortest way leads between two of which one is farther than the last.
+/// `corners`: of `faces`. Cost: O(count log count) on Delaunay triangles, whatever the mesh has.
 std::vector<NearDistance> march_nearest(const CornerTable& corners, std::span<const Face> faces,
                                         std::span<const FaceLayout> layout,
                                         std::span<const NearDistance> seeds, std::size_t count);

@@ -59,9 +59,10 @@ class RefinedShape : public testing::TestWithParam<Shape> {};
 TEST_P(RefinedShape, HasLessErrorEachTime) {
   const MeshPtr mesh = finish(GetParam().draft());
   const SourceSet sources = mixed_sources(*mesh);
-  // Measured: 0.5 to 0.75 for heat and fast marching, which are of first order, the exact distances
-  // having kinks; wavefronts begin near exact.
-  constexpr double kFactor = 0.85;
+  // Measured: 0.5 to 0.75 for fast marching, which is of first order, the exact distances having
+  // kinks; up to 0.92 for heat, which is told the distances around sources also where faces are
+  // large; wavefronts begin near exact.
+  constexpr double kFactor = 0.95;
   for (const MethodKind kind :
        {MethodKind::kHeat, MethodKind::kFastMarching, MethodKind::kWavefront}) {
     const double once = mean_error(mesh, sources, kind, 0);
