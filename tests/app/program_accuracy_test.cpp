@@ -27,8 +27,9 @@ class ProgramAccuracy : public Program {
     EXPECT_TRUE(write_mesh(folder.path("hull.ply"), *finish(slivers_along_a_border())));
   }
 
-  /// A plane whose border has slivers, as a Delaunay triangulation of points has along its hull:
-  /// the middle of each border edge lies just inside.
+  /// A sheet whose border has slivers, as a Delaunay triangulation of points has along its hull:
+  /// the middle of each border edge lies just inside. It is rolled up, so that no straight line
+  /// helps.
   static Draft slivers_along_a_border() {
     constexpr Index kCells = 20;
     Draft draft = plane_grid(kCells, kCells, 1, 1);
@@ -42,6 +43,10 @@ class ProgramAccuracy : public Program {
         const Index c = draft.add(outside);
         draft.faces.push_back(j == 0 ? Face{b, a, c} : Face{a, b, c});
       }
+    }
+    constexpr double kAngle = 5;
+    for (Vec3& p : draft.positions) {
+      p = {std::sin(kAngle * p.y()) / kAngle, p.x(), std::cos(kAngle * p.y()) / kAngle};
     }
     return draft;
   }

@@ -36,7 +36,7 @@ class NamedCause : public Program, public testing::WithParamInterface<WrongOptio
   NamedCause() {
     EXPECT_TRUE(write_mesh(folder.path("terrain.ply"), *generate_model("terrain", 800)));
     EXPECT_TRUE(write_mesh(folder.path("needles.ply"), *finish(needles(6))));
-    EXPECT_TRUE(write_mesh(folder.path("coarse.ply"), *finish(plane_grid(24, 24, 1, 1))));
+    EXPECT_TRUE(write_mesh(folder.path("coarse.ply"), *generate_model("sleeve", 600)));
   }
   Json checked(Words words, const Words& more) {
     words.insert(words.begin(), "solve");
@@ -75,7 +75,7 @@ const Words kTerrain = {"terrain.ply", "-s", "3"};
 const Words kManySources = {"terrain.ply", "-s", "3,10,50,100,200,300,400"};
 
 const WrongOption kCases[] = {
-    {"CoarseMesh", {"coarse.ply", "-s", "312"}, {}, "refine", "too coarse"},
+    {"CoarseMesh", {"coarse.ply", "-s", "3"}, {}, "refine", "too coarse"},
     {"LargeTime",
      kTerrain,
      {"--time-factor", "100"},
