@@ -214,12 +214,32 @@ void check_straight_lines(std::span<const Vec3> positions, const StraightLine& s
                           double mean_edge, double unit, const BoundTolerance& tolerance,
                           BelowLine below, int threads, DistanceResult& result) {
   const bool raises = below == BelowLine::kRaised;
-  const double to_edges = unit / mean_edge;
+  const double to_edges = unit / mean_edge, from_edges = mean_edge / unit;
   const double per_share = 1 / (1 - tolerance.line_share);
   const bool clamped = result.quality.clamped_vertices > 0;
+  const auto is_more = [](double line, double distance) {
+    return line > distance + kRounding * (1 + line);
+  };
+  // One source, as most are: without branches that a processor would guess wrong.
+  const auto raise_to_point = [&](std::int64_t begin, std::int64_t end) {
+    LineFigures sum;
+    for (auto v = static_cast<std::size_t>(begin); v < static_cast<std::size_t>(end); ++v) {
+      const double given = result.distances[v], distance = given * to_edges;
+      const double line = straight.length_to_point(straight.place(positions[v]));
+      sum.reached += distance < kUnreached ? 1 : 0;
+      const bool known = line < kUnreached;  // not beyond the range of doubles
+      result.distances[v] = (known & is_more(line, distance)) ? line * from_edges : given;
+      if (known && line > (distance + tolerance.line_edges) * per_share) {
+        ++sum.below;
+        sum.most = std::max(sum.most, 1 - distance / line);
+      }
+    }
+    return sum;
+  };
   LineFigures all;
   for (const LineFigures& part : sums_of_blocks<LineFigures>(
            threads, std::ssize(positions), [&](std::int64_t begin, std::int64_t end) {
+             if (raises && !clamped && straight.is_point()) return raise_to_point(begin, end);
              LineFigures sum;
              Index hint = 0;
              for (auto v = static_cast<std::size_t>(begin); v < static_cast<std::size_t>(end);
@@ -231,12 +251,9 @@ void check_straight_lines(std::span<const Vec3> positions, const StraightLine& s
                const Vec3 place = straight.place(positions[v]);
                if (distance == 0 && clamped)
                  sum.reach = std::max(sum.reach, straight.length(place));
-               if (straight.is_within(place, raises ? distance : most, hint)) continue;
-               const double line = straight.length(place);
-               if (!(line < kUnreached)) continue;  // beyond the range of doubles
-               if (raises && line > distance + kRounding * (1 + line)) {
-                 result.distances[v] = line / to_edges;
-               }
+               const double line = straight.length_beyond(place, raises ? distance : most, hint);
+               if (!(line > 0 && line < kUnreached)) continue;  // beyond the range of doubles
+               if (raises && is_more(line, distance)) result.distances[v] = line * from_edges;
                if (!(line > most)) continue;
                ++sum.below;
                sum.most = std::max(sum.most, 1 - distance / line);

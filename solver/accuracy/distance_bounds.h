@@ -32,14 +32,22 @@ class StraightLine {
   StraightLine(std::span<const LineSource> sources, double unit);
 
   Vec3 place(const Vec3& position) const { return (position - origin_) * scale_; }
-  /// Whether some source is no farther from the place than `reach`. `hint`: the source to look at
-  /// first; becomes the one that was found. Cost: O(log K), and O(1) where the hint holds.
-  bool is_within(const Vec3& place, double reach, Index& hint) const {
+  /// The straight line to the nearest source where it is longer than `reach`, 0 where it is not.
+  /// `hint`: the source to look at first; becomes one that is near enough. Cost: O(log K), and O(1)
+  /// where the hint holds.
+  double length_beyond(const Vec3& place, double reach, Index& hint) const {
     const Piece& piece = pieces_[static_cast<std::size_t>(hint)];
     const double left = reach - piece.offset;
     // The beginning of a curve's piece is tried first, which costs no more than a point.
-    if (left >= 0 && (place - piece.from).squaredNorm() <= left * left) return true;
-    return find_within(place, reach, hint);
+    const double square = (place - piece.from).squaredNorm();
+    if (left >= 0 && square <= left * left) return 0;
+    return find_within(place, reach, hint) ? 0 : length(place);
+  }
+  /// Whether there is one source, and that is a point.
+  bool is_point() const { return pieces_.size() == 1 && pieces_[0].inverse_square == 0; }
+  /// The straight line to the first source where that is a point.
+  double length_to_point(const Vec3& place) const {
+    return (place - pieces_[0].from).norm() + pieces_[0].offset;
   }
   /// Cost: O(log K) on ordinary sources.
   double length(const Vec3& place) const;

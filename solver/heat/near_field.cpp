@@ -294,12 +294,13 @@ void march_in_component(const Surface& surface, const SourceAnchors& anchors, In
 /// Errors: kOutOfMemory.
 Result<void> add_component(const Surface& surface, const SourceAnchors& anchors, Index component,
                            std::vector<NearVertex>& out) {
-  Neighbourhood near(surface, anchors, component);
-  const std::size_t faces = faces_worth_walking(surface.components[component], near.source_count());
-  if (faces == 0) {
+  const ComponentSize& size = surface.components[component];
+  if (faces_worth_walking(size, 1) == 0) {
     march_in_component(surface, anchors, component, out);
     return {};
   }
+  Neighbourhood near(surface, anchors, component);
+  const std::size_t faces = faces_worth_walking(size, near.source_count());
   near.gather(faces);
   const auto local = near.surface();
   if (!local) return local.error();

@@ -35,22 +35,27 @@ class Reached {
   struct Entry {
     Index vertex = kNoIndex;
     bool done = false;  ///< the distance is the last
-    double distance = 0;
+    double distance = kUnreached;
   };
 
   explicit Reached(std::size_t count)
-      : entries_(std::bit_ceil(8 * std::max<std::size_t>(count, 8))) {}
+      : entries_(std::bit_ceil(4 * std::max<std::size_t>(count, 8))) {}
 
-  /// The entry of a vertex, or the free one where it belongs. It holds until the next find() of a
-  /// vertex that has none.
-  Entry& find(Index vertex) {
-    if (2 * used_ >= entries_.size()) grow();
-    return entries_[slot_of(vertex)];
-  }
-  /// Fills a free entry.
-  void fill(Entry& entry, Index vertex) {
+  /// The entry of a vertex, new where it had none.
+  Entry& at(Index vertex) {
+    Entry& entry = entries_[slot_of(vertex)];
+    if (entry.vertex == kNoIndex) ++used_;
     entry.vertex = vertex;
-    ++used_;
+    return entry;
+  }
+  /// So many more may come; entries are elsewhere after it.
+  void make_room(std::size_t more) {
+    if (2 * (used_ + more) < entries_.size()) return;
+    const std::size_t size = std::bit_ceil(4 * (used_ + more));
+    const std::vector<Entry> old = std::exchange(entries_, std::vector<Entry>(size));
+    for (const Entry& entry : old) {
+      if (entry.vertex != kNoIndex) entries_[slot_of(entry.vertex)] = entry;
+    }
   }
 
  private:
@@ -58,15 +63,11 @@ class Reached {
 
   std::size_t slot_of(Index vertex) const {
     const std::size_t mask = entries_.size() - 1;
-    std::size_t at = (static_cast<std::uint64_t>(vertex) * kGolden >> 32) & mask;
-    while (entries_[at].vertex != kNoIndex && entries_[at].vertex != vertex) at = (at + 1) & mask;
-    return at;
-  }
-  void grow() {
-    const std::vector<Entry> old = std::exchange(entries_, std::vector<Entry>(2 * entries_.size()));
-    for (const Entry& entry : old) {
-      if (entry.vertex != kNoIndex) entries_[slot_of(entry.vertex)] = entry;
+    std::size_t slot = (static_cast<std::uint64_t>(vertex) * kGolden >> 32) & mask;
+    while (entries_[slot].vertex != kNoIndex && entries_[slot].vertex != vertex) {
+      slot = (slot + 1) & mask;
     }
+    return slot;
   }
 
   std::vector<Entry> entries_;
@@ -118,34 +119,37 @@ std::vector<NearDistance> march_nearest(const CornerTable& corners, std::span<co
   using Waiting = std::pair<double, Index>;
   std::priority_queue<Waiting, std::vector<Waiting>, std::greater<>> waiting;
   Reached reached(count);
-  const auto lower = [&](Index vertex, double distance) {
-    if (!(distance < kUnreached)) return;
-    Reached::Entry& entry = reached.find(vertex);
-    if (entry.vertex == kNoIndex) {
-      reached.fill(entry, vertex);
-    } else if (entry.done || !(distance < entry.distance)) {
-      return;
-    }
+  const auto lower = [&waiting](Reached::Entry& entry, double distance) {
+    if (!(distance < entry.distance)) return;
     entry.distance = distance;
-    waiting.emplace(distance, vertex);
+    waiting.emplace(distance, entry.vertex);
   };
-  for (const NearDistance& seed : seeds) lower(seed.vertex, seed.distance);
+  reached.make_room(seeds.size());
+  for (const NearDistance& seed : seeds) lower(reached.at(seed.vertex), seed.distance);
   while (!waiting.empty() && out.size() < count) {
     const auto [distance, vertex] = waiting.top();
     waiting.pop();
-    if (std::exchange(reached.find(vertex).done, true)) continue;
+    if (std::exchange(reached.at(vertex).done, true)) continue;
     out.push_back({vertex, distance});
+    reached.make_room(2 * corners.at(vertex).size());
     for (const Side corner : corners.at(vertex)) {
-      const auto face = static_cast<std::size_t>(face_of(corner));
-      const auto at = places_of(layout[face]);
+      const auto f = static_cast<std::size_t>(face_of(corner));
       const int from = corner_of(corner), next = next_corner(from), last = previous_corner(from);
-      for (const auto& [to, other] : {std::pair(next, last), std::pair(last, next)}) {
-        lower(faces[face][to], distance + length_of(at[to].x - at[from].x, at[to].y - at[from].y));
-        const Reached::Entry& beside = reached.find(faces[face][other]);
-        if (beside.vertex == kNoIndex || !beside.done) continue;
-        lower(faces[face][to],
-              straight_through(at[from], at[other], at[to], distance, beside.distance));
-      }
+      Reached::Entry& a = reached.at(faces[f][next]);
+      Reached::Entry& b = reached.at(faces[f][last]);
+      if (a.done && b.done) continue;
+      const auto place = places_of(layout[f]);
+      const auto along_edge = [&](Reached::Entry& entry, int to) {
+        const double length = length_of(place[to].x - place[from].x, place[to].y - place[from].y);
+        lower(entry, distance + length);
+      };
+      if (!a.done) along_edge(a, next);
+      if (!b.done) along_edge(b, last);
+      if (!a.done && !b.done) continue;
+      Reached::Entry& target = a.done ? b : a;
+      const int to = a.done ? last : next, other = a.done ? next : last;
+      const double known = (a.done ? a : b).distance;
+      lower(target, straight_through(place[from], place[other], place[to], distance, known));
     }
   }
   return out;

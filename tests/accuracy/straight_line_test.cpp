@@ -41,8 +41,8 @@ TEST_P(StraightLines, AreThoseToTheNearestOfAllPoints) {
     for (const Index v : ids) least = std::min(least, (p - mesh->positions()[v]).norm() / 0.25);
     const Vec3 place = straight.place(p);
     EXPECT_NEAR(straight.length(place), least, kRoundOff);
-    EXPECT_TRUE(straight.is_within(place, least + kRoundOff, hint));
-    EXPECT_FALSE(straight.is_within(place, 0.999 * least - kRoundOff, hint));
+    EXPECT_EQ(straight.length_beyond(place, least + kRoundOff, hint), 0);
+    EXPECT_NEAR(straight.length_beyond(place, 0.999 * least - kRoundOff, hint), least, kRoundOff);
   }
 }
 
