@@ -276,8 +276,8 @@ void add_bound_warnings(MethodKind method, DistanceResult& result) {
         {"the distance of " +
              counted_text(static_cast<std::size_t>(q.below_straight_line), "vertex", "vertices") +
              " (" + percent(static_cast<double>(q.below_straight_line) / q.reached_vertices) +
-             ") is below the straight line to the nearest source, by up to " +
-             percent(q.most_below_straight_line) + " of it; it is wrong there by at least that",
+             ") came out below the straight line to the nearest source, by up to " +
+             percent(q.most_below_straight_line) + " of it; it is wrong around there",
          remedy(method)});
   }
   if (q.steep_edges > 0) {
