@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
+#include <atomic>
 #include <future>
 #include <memory>
 #include <optional>
@@ -14,7 +15,9 @@
 #include "app/session/model_solver.h"
 #include "app/session/wording.h"
 #include "app/text/text.h"
+#include "geotherm/build_method.h"
 #include "solver/core/memory.h"
+#include "solver/core/parallel.h"
 #include "solver/core/stopwatch.h"
 
 namespace geotherm::app {
@@ -27,18 +30,47 @@ constexpr std::int64_t kBetweenReleases = 16;
 /// Bad frames that are named in warnings, and frames whose warnings are shown.
 constexpr std::size_t kMaxNamed = 5;
 
+/// A frame before it is solved.
 struct ReadFrame {
-  Result<TriangleMesh> mesh;
-  double milliseconds = 0;
+  Result<std::shared_ptr<const TriangleMesh>> mesh;
+  double milliseconds = 0;                    ///< of reading
+  std::optional<Result<ReadyMethod>> method;  ///< where it was set up as well
 };
 
-std::future<ReadFrame> read_beside(const Frames& frames, std::int64_t k) {
-  return std::async(std::launch::async, [frames, k] {
+/// Reads a frame on a thread of its own and, where `earlier` is a method on another frame, sets its
+/// method up. When it is dropped, a set-up that is still going on is cancelled.
+class ComingFrame {
+ public:
+  ComingFrame(const Sequence& sequence, std::int64_t k, const ReadyMethod& earlier)
+      : frame_(std::async(std::launch::async, [this, &sequence, k, earlier] {
+          const Stopwatch watch;
+          auto mesh = sequence.frames.read(k);
+          const double milliseconds = watch.milliseconds();
+          if (!mesh) return ReadFrame{mesh.error(), milliseconds, {}};
+          ReadFrame frame{std::make_shared<const TriangleMesh>(*std::move(mesh)), milliseconds, {}};
+          if (earlier.method) frame.method = set_up(*frame.mesh, earlier, sequence.frames.name(k));
+          return frame;
+        })) {}
+  ~ComingFrame() { dropped_ = true; }
+  ComingFrame(const ComingFrame&) = delete;
+  ComingFrame& operator=(const ComingFrame&) = delete;
+
+  ReadFrame get() { return frame_.get(); }
+
+ private:
+  Result<ReadyMethod> set_up(const std::shared_ptr<const TriangleMesh>& mesh,
+                             const ReadyMethod& earlier, const std::string& name) const {
     const Stopwatch watch;
-    auto mesh = frames.read(k);
-    return ReadFrame{std::move(mesh), watch.milliseconds()};
-  });
-}
+    auto made = build_method_moved(mesh, earlier.options, earlier.method.get(),
+                                   [this](std::string_view, double) { return !dropped_; });
+    if (!made) return about_model(name, made.error());
+    const SetupTiming timing = (*made)->timing();
+    return ReadyMethod{*std::move(made), earlier.options, timing, watch.milliseconds()};
+  }
+
+  std::atomic<bool> dropped_ = false;
+  std::future<ReadFrame> frame_;  ///< last: its end is waited for first
+};
 
 /// What goes on, whatever a frame holds.
 bool ends_the_run(const Error& error) {
@@ -51,10 +83,20 @@ class FrameSolver {
   FrameSolver(const Sequence& sequence, SequenceFigures& figures)
       : sequence_(sequence), figures_(figures) {}
 
-  Result<void> solve(std::int64_t k, TriangleMesh mesh, const Progress& progress) {
-    auto moved = std::make_shared<const TriangleMesh>(std::move(mesh));
-    return figures_.answer ? solve_next(k, std::move(moved), progress)
-                           : solve_first(k, std::move(moved), progress);
+  /// Precondition: the frame has a mesh.
+  Result<void> solve(std::int64_t k, const ReadFrame& frame, const Progress& progress) {
+    if (frame.method && !*frame.method) return frame.method->error();
+    return figures_.answer ? solve_next(k, frame, progress) : solve_first(k, *frame.mesh, progress);
+  }
+
+  /// What the next frame is set up from while `frame` is solved. None for heat, whose set-up takes
+  /// all threads and whose query is short, before the first answer, and where there is one thread.
+  ReadyMethod to_follow(const ReadFrame& frame) const {
+    if (!figures_.answer || figures_.answer->method->heat() != nullptr) return {};
+    const Answer& answer = *figures_.answer;
+    if (thread_count(answer.options.threads) == 1) return {};
+    if (frame.method && *frame.method) return **frame.method;
+    return {answer.method, answer.options, {}, 0};
   }
 
  private:
@@ -74,13 +116,17 @@ class FrameSolver {
   }
 
   /// By the method that answered in the first frame, which alone is checked.
-  Result<void> solve_next(std::int64_t k, std::shared_ptr<const TriangleMesh> mesh,
-                          const Progress& progress) {
+  Result<void> solve_next(std::int64_t k, const ReadFrame& frame, const Progress& progress) {
     Answer& first = *figures_.answer;
     Model model = first.model;
-    model.mesh = std::move(mesh);
+    model.mesh = *frame.mesh;
     model.name = sequence_.frames.name(k);
-    solver_->move(std::move(model));
+    if (frame.method) {
+      first.method = (*frame.method)->method;  // lets go of the one before, beside the next one
+      solver_->move(std::move(model), **frame.method);
+    } else {
+      solver_->move(std::move(model));
+    }
     auto answer = solver_->solve(first.options, sequence_.sources, {sequence_.query}, progress);
     if (!answer) return answer.error();
     count_times(*answer);
@@ -188,18 +234,20 @@ Result<SequenceFigures> solve_frames(const Sequence& sequence, const TakeAnswer&
   SequenceFigures figures;
   FrameSolver solver(sequence, figures);
   const Stopwatch watch;
-  std::future<ReadFrame> next = read_beside(frames, 0);
+  auto next = std::make_unique<ComingFrame>(sequence, 0, ReadyMethod{});
   for (std::int64_t k = 0; k < count; ++k) {
     const double from = static_cast<double>(k) / static_cast<double>(count);
     const double to = static_cast<double>(k + 1) / static_cast<double>(count);
     const std::string stage = "frame " + grouped(k + 1) + " of " + all;
     if (!report(progress, stage, from)) return cancelled_error();
-    ReadFrame read = next.get();
+    const ReadFrame read = next->get();
     figures.read_ms += read.milliseconds;
-    if (k + 1 < count) next = read_beside(frames, k + 1);
+    next.reset();
+    if (k + 1 < count) {
+      next = std::make_unique<ComingFrame>(sequence, k + 1, solver.to_follow(read));
+    }
     const Result<void> solved =
-        read.mesh ? solver.solve(k, *std::move(read.mesh),
-                                 part_of(with_prefix(progress, stage + ": "), from, to))
+        read.mesh ? solver.solve(k, read, part_of(with_prefix(progress, stage + ": "), from, to))
                   : Result<void>(read.mesh.error());
     if (!solved && (!sequence.skip_bad || ends_the_run(solved.error()))) return solved.error();
     if (!solved) figures.bad.push_back({k, told(solved.error())});

@@ -62,6 +62,12 @@ void ModelSolver::move(Model model) {
   paths_.reset();
 }
 
+void ModelSolver::move(Model model, ReadyMethod ready) {
+  move(std::move(model));
+  earlier_.clear();
+  ready_.push_back(std::move(ready));
+}
+
 const ReadyMethod* ModelSolver::find_ready(const MethodOptions& options) const {
   return find_in(ready_, options);
 }

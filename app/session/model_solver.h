@@ -70,6 +70,8 @@ class ModelSolver {
   /// what they can from those that were wanted before it; what else was kept goes, but for the
   /// summary, which set_summary() renews.
   void move(Model model);
+  /// The same where a method on the moved model is there, in place of all those before.
+  void move(Model model, ReadyMethod ready);
   /// Options of the methods that will be asked for again: they stay when another one is made. A new
   /// method reuses parts of one that is not among them, if there is one. Without this call the last
   /// one stays.

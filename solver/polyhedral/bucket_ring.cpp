@@ -47,7 +47,7 @@ void BucketRing::add_seeds(const std::vector<std::pair<double, Index>>& seeds) {
   for (const auto& [key, edge] : seeds) {
     outside_.emplace_back(static_cast<std::int64_t>(std::min(key * per_length_, kLast)), edge);
   }
-  std::ranges::sort(outside_);
+  std::ranges::stable_sort(outside_, {}, &std::pair<std::int64_t, Index>::first);
 }
 
 bool BucketRing::advance(WavePass& pass) {

@@ -20,7 +20,7 @@ class BucketRing {
   /// Empties the ring and connects it to a pass, which then holds its state.
   void begin(WavePass& pass);
 
-  /// Adds edges with their keys; those beyond the ring wait outside of it.
+  /// Adds edges with their keys, of one bucket in this order; those beyond the ring wait outside.
   void add_seeds(const std::vector<std::pair<double, Index>>& seeds);
 
   /// Goes on to the next bucket that holds something, or to what waits outside; false when all is
@@ -49,7 +49,7 @@ class BucketRing {
   double per_length_;
   std::vector<WaveBucket> buckets_;
   std::vector<std::vector<Index>> storage_;
-  std::vector<std::pair<std::int64_t, Index>> outside_;  ///< bucket number, edge; ascending
+  std::vector<std::pair<std::int64_t, Index>> outside_;  ///< number of a bucket, ascending; edge
   std::size_t let_in_ = 0;                               ///< of `outside_`, so many are in
 };
 

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <atomic>
 #include <span>
+#include <tuple>
+#include <utility>
 #include <vector>
 
 #include "solver/core/parallel.h"
@@ -18,9 +20,6 @@ constexpr std::int64_t kMinCornersPerThread = 1 << 13;
 /// itself: its fall may not change the samples far out on a long side, and would not reach the
 /// faces beyond.
 constexpr double kStretched = 6;
-
-/// Where in WaveFace::reversed the corners stand at which fans touch.
-constexpr unsigned kFanBits = 4;
 
 bool is_stretched(const WaveTables& tables, std::span<const SideCode> corners) {
   double longest = 0, shortest = kUnreached;
@@ -122,11 +121,31 @@ void mark_touching(WaveTables& tables, int threads) {
                [&](std::int64_t begin, std::int64_t end) {
                  for (std::int64_t v = begin; v < end; ++v) {
                    const auto corners = tables.corners_at(static_cast<Index>(v));
-                   const SideCode c = corners.front();
-                   const unsigned fans = tables.faces[face_of_code(c)].reversed >> kFanBits;
-                   if ((fans >> corner_of_code(c) & 1U) != 0 || is_stretched(tables, corners)) {
+                   if (fans_touch(tables, static_cast<Index>(v)) || is_stretched(tables, corners)) {
                      set_bits(&WaveFace::touching, 0, corners, tables);
                    }
+                 }
+               });
+}
+
+void order_touching(WaveTables& tables, int threads) {
+  // Faces that have one corner in common are in the order of the other two.
+  const auto key = [&tables](SideCode corner) {
+    const WaveFace& face = tables.faces[face_of_code(corner)];
+    const int k = corner_of_code(corner);
+    const auto place = [&](int i) { return tables.place(tables.vertex_of_rank[face.vertex[i]]); };
+    const auto others = std::minmax(place(next_corner(k)), place(previous_corner(k)));
+    return std::tuple(std::pair<Place, Place>(others), tables.intrinsic_face[face_of_code(corner)],
+                      k);
+  };
+  parallel_for(threads, tables.vertex_count(), kMinCornersPerThread,
+               [&](std::int64_t begin, std::int64_t end) {
+                 for (std::int64_t v = begin; v < end; ++v) {
+                   SideCode* const first = tables.corners.data() + tables.corner_start[v];
+                   const WaveFace& face = tables.faces[face_of_code(*first)];
+                   if ((face.touching >> corner_of_code(*first) & 1U) == 0) continue;
+                   std::sort(first, tables.corners.data() + tables.corner_start[v + 1],
+                             [&key](SideCode a, SideCode b) { return key(a) < key(b); });
                  }
                });
 }

@@ -13,8 +13,22 @@ void list_corners(WaveTables& tables);
 /// pass over the edges and one over the corners.
 void mark_fans(WaveTables& tables, int threads);
 
+/// Where in WaveFace::reversed the corners stand at which fans touch; sides are below.
+inline constexpr unsigned kFanBits = 4;
+
+/// Whether several fans of faces touch at a vertex.
+inline bool fans_touch(const WaveTables& tables, Index rank) {
+  const SideCode corner = tables.corners_at(rank).front();
+  const unsigned fans = tables.faces[face_of_code(corner)].reversed >> kFanBits;
+  return (fans >> corner_of_code(corner) & 1U) != 0;
+}
+
 /// Marks in WaveFace::touching the corners at which a vertex hands its distance on by itself: those
 /// where fans touch, and those with sides of very different lengths.
 void mark_touching(WaveTables& tables, int threads);
+
+/// Puts the corners at each of these vertices in the order that a fresh build has: by their faces,
+/// whose order is that of their corners' places. Elsewhere no wave asks for them in order.
+void order_touching(WaveTables& tables, int threads);
 
 }  // namespace geotherm

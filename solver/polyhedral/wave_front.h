@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <utility>
@@ -96,6 +97,7 @@ class WaveFront {
   void seed_face(const WaveSurface& surface, const SourceSeeds::Piece& piece);
   void lower(double& value, Index* label, double candidate, Index group);
   double key_of(Index edge) const;
+  std::array<Place, 3> places_of(Index edge) const;
   WavePass pass();
 
   const WaveTables& tables_;

@@ -220,6 +220,14 @@ class Seeder {
 
 }  // namespace
 
+const WaveEdges& WaveSurface::edges() const {
+  std::call_once(listed_, [this] {
+    name_edges_by_first_side(base.intrinsic, edges_);
+    list_sides(edges_);
+  });
+  return edges_;
+}
+
 Error wave_out_of_memory(const char* stage, Index faces) {
   return {
       ErrorCode::kOutOfMemory,
@@ -240,10 +248,9 @@ Result<std::shared_ptr<const WaveSurface>> build_wave_surface(
     if (!base) return base.error();
     auto triangulation = std::make_shared<IntrinsicSurface>(*std::move(base));
     triangulation->corners = {};
-    if (earlier != nullptr && same_triangles(earlier->base, *triangulation, threads)) {
-      auto surface = std::make_shared<WaveSurface>(std::move(triangulation));
-      surface->edges = earlier->edges;
-      return std::shared_ptr<const WaveSurface>(std::move(surface));
+    if (earlier != nullptr) {
+      return std::shared_ptr<const WaveSurface>(
+          std::make_shared<WaveSurface>(std::move(triangulation)));
     }
     return build_wave_surface(std::shared_ptr<const IntrinsicSurface>(std::move(triangulation)),
                               part_of(progress, 0.9, 1.0));
@@ -258,10 +265,7 @@ Result<std::shared_ptr<const WaveSurface>> build_wave_surface(
   const Index faces = triangulation->mesh->face_count();
   try {
     auto surface = std::make_shared<WaveSurface>(std::move(triangulation));
-    auto edges = std::make_shared<WaveEdges>();
-    name_edges_by_first_side(surface->base.intrinsic, *edges);
-    list_sides(*edges);
-    surface->edges = std::move(edges);
+    surface->edges();
     return std::shared_ptr<const WaveSurface>(std::move(surface));
   } catch (const std::bad_alloc&) {
     return wave_out_of_memory("triangulation", faces);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <memory>
+#include <mutex>
 #include <span>
 #include <utility>
 #include <vector>
@@ -35,15 +36,21 @@ struct WaveSurface {
 
   std::shared_ptr<const IntrinsicSurface> shared;  ///< a heat method may use it as well
   const IntrinsicSurface& base;                    ///< the same
-  std::shared_ptr<const WaveEdges> edges;          ///< one for all surfaces with the same triangles
 
-  Index edge_count() const { return static_cast<Index>(edges->side_start.size()) - 1; }
-  Index edge_of_side(Side side) const { return edges->of_side[side]; }
+  /// Listed when they are first asked for: tables of a surface that has moved do without. Throws
+  /// std::bad_alloc.
+  const WaveEdges& edges() const;
+  Index edge_count() const { return static_cast<Index>(edges().side_start.size()) - 1; }
+  Index edge_of_side(Side side) const { return edges().of_side[side]; }
   std::span<const Side> sides_of(Index edge) const {
-    const auto& start = edges->side_start;
-    return {edges->sides.data() + start[edge], edges->sides.data() + start[edge + 1]};
+    const auto& start = edges().side_start;
+    return {edges().sides.data() + start[edge], edges().sides.data() + start[edge + 1]};
   }
   Index face_count() const { return base.intrinsic.face_count(); }
+
+ private:
+  mutable std::once_flag listed_;
+  mutable WaveEdges edges_;
 };
 
 /// build_wave_surface() on a given triangulation. Preconditions: it is Delaunay and, where

@@ -2,7 +2,6 @@
 #include "solver/polyhedral/wave_tables.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstdint>
 #include <utility>
 
@@ -10,59 +9,37 @@
 #include "solver/core/parallel.h"
 #include "solver/core/sorting.h"
 #include "solver/polyhedral/wave_corners.h"
+#include "solver/polyhedral/wave_places.h"
+#include "solver/polyhedral/wave_sides.h"
 
 namespace geotherm {
 namespace {
 
-/// Bits of a coordinate in a Morton number; three of them fill 63.
-constexpr int kMortonBits = 21;
-
 /// Minimum vertices or faces per thread.
 constexpr std::int64_t kMinTableRowsPerThread = 1 << 13;
 
-/// Spreads the low bits so that two zeros follow each (Morton 1966).
-std::uint64_t spread(std::uint64_t x) {
-  x = (x | x << 32) & 0x001f00000000ffff;
-  x = (x | x << 16) & 0x001f0000ff0000ff;
-  x = (x | x << 8) & 0x100f00f00f00f00f;
-  x = (x | x << 4) & 0x10c30c30c30c30c3;
-  return (x | x << 2) & 0x1249249249249249;
-}
-
-/// Vertices that faces use, along a space-filling curve.
-std::vector<Index> morton_order(const IntrinsicSurface& base, int threads) {
+/// Vertices that faces use, along the curve.
+std::vector<Index> morton_order(const IntrinsicSurface& base,
+                                const std::vector<std::uint64_t>& morton, int threads) {
   std::vector<Index> used;
-  Vec3 low = Vec3::Constant(kUnreached), high = -low;
   for (Index v = 0; v < base.vertex_count(); ++v) {
-    if (static_cast<std::size_t>(v) < base.kept->on_surface.size() && base.kept->on_surface[v] == 0)
-      continue;
-    used.push_back(v);
-    low = low.cwiseMin(base.position(v));
-    high = high.cwiseMax(base.position(v));
+    if (is_used(base, v)) used.push_back(v);
   }
-  const Vec3 origin = low / 2;  // halves, because the extent may be beyond the doubles' range
-  const double extent = (high / 2 - origin).maxCoeff();
-  const double steps = extent > 0 ? ((1 << kMortonBits) - 1) / extent : 0.0;
-  RawVector<std::pair<std::uint64_t, Index>> codes(used.size());
+  RawVector<Place> places(used.size());
   constexpr int kMaxPieces = 8;  // merging takes a pass over the vertices for each
   const int pieces =
       piece_count(std::min(threads, kMaxPieces), std::ssize(used), kMinTableRowsPerThread);
   for_pieces(pieces, std::ssize(used), [&](int, std::int64_t begin, std::int64_t end) {
-    for (std::int64_t i = begin; i < end; ++i) {
-      const Vec3 at = (base.position(used[i]) / 2 - origin) * steps;
-      std::uint64_t code = 0;
-      for (int c = 0; c < 3; ++c) code |= spread(static_cast<std::uint64_t>(at(c))) << c;
-      codes[i] = {code, used[i]};
-    }
-    std::sort(codes.begin() + begin, codes.begin() + end);
+    for (std::int64_t i = begin; i < end; ++i) places[i] = {morton[used[i]], used[i]};
+    std::sort(places.begin() + begin, places.begin() + end);
   });
   const auto begin_of = [&](int piece) {
-    return codes.begin() + std::ssize(used) * piece / pieces;
+    return places.begin() + std::ssize(used) * piece / pieces;
   };
   for (int p = 1; p < pieces; ++p) {
-    std::inplace_merge(codes.begin(), begin_of(p), begin_of(p + 1));
+    std::inplace_merge(places.begin(), begin_of(p), begin_of(p + 1));
   }
-  std::ranges::transform(codes, used.begin(), [](const auto& pair) { return pair.second; });
+  std::ranges::transform(places, used.begin(), [](const Place& place) { return place.second; });
   return used;
 }
 
@@ -111,20 +88,6 @@ RawVector<Index> face_order(const WaveTables& tables, const std::vector<Face>& f
   return order;
 }
 
-/// Whether the two sides of one edge run the same way.
-bool same_direction(const IntrinsicMesh& mesh, Side first, Side other) {
-  if (first == other) return true;
-  if (mesh.twin[first] == other) return false;  // also where both ends are one vertex
-  return mesh.faces[face_of(first)][corner_of(first)] ==
-         mesh.faces[face_of(other)][corner_of(other)];
-}
-
-void set_lengths(const std::array<double, 3>& lengths, WaveFace& face) {
-  const FaceLayout layout = lay_out(lengths);
-  face.length = lengths;
-  face.twice_area = layout.base * layout.height;
-}
-
 /// Numbers faces, and edges in the order in which faces meet them, each from its first corner on.
 class FaceWriter {
  public:
@@ -146,40 +109,32 @@ class FaceWriter {
         threads_, count,
         [this](std::int64_t begin, std::int64_t end) { return write_faces(begin, end); });
     std::vector<Index> first_edge = {0};
-    double sum = 0;
+    std::vector<SideLengths> lengths;
     for (const Block& block : blocks) {
       first_edge.push_back(first_edge.back() + block.edges);
-      sum += block.length;
-      tables_.longest_side = std::max(tables_.longest_side, block.longest);
+      lengths.push_back(block.lengths);
     }
-    tables_.mean_side = sum / (3.0 * static_cast<double>(count));
+    sum_up(lengths, tables_);
     number_.resize(static_cast<std::size_t>(surface_.edge_count()));
     tables_.sides.resize(static_cast<std::size_t>(surface_.edge_count()));
     parallel_for(threads_, std::ssize(blocks), 1, [&](std::int64_t begin, std::int64_t end) {
       for (std::int64_t b = begin; b < end; ++b) {
-        write_edges(blocks[b].begin, blocks[b].end, first_edge[b]);
+        number_edges(blocks[b].begin, blocks[b].end, first_edge[b]);
       }
     });
-    add_further_sides();
     parallel_for(threads_, count, kMinTableRowsPerThread,
                  [this](std::int64_t begin, std::int64_t end) {
-                   for (std::int64_t i = begin; i < end; ++i) join_edges(static_cast<Index>(i));
+                   for (std::int64_t i = begin; i < end; ++i) name_edges(static_cast<Index>(i));
                  });
+    join_sides(mesh_, threads_, tables_);
   }
 
  private:
   struct Block {
     std::int64_t begin = 0, end = 0;  ///< faces
     Index edges = 0;                  ///< that are met in them first
-    double length = 0, longest = 0;   ///< of their sides
+    SideLengths lengths{};
   };
-
-  SideCode code_of(Side side) const {
-    return static_cast<SideCode>(4 * tables_.rank_of_face[face_of(side)] + corner_of(side));
-  }
-  Side side_of(SideCode code) const {
-    return 3 * tables_.intrinsic_face[face_of_code(code)] + corner_of_code(code);
-  }
 
   /// Whether an edge is met by this side before all others: in a lower face, or in this one
   /// earlier.
@@ -203,56 +158,27 @@ class FaceWriter {
       const Index f = tables_.intrinsic_face[i];
       WaveFace& face = tables_.faces[i];
       face.vertex = ranks(tables_, mesh_.faces[f]);
-      set_lengths(mesh_.lengths[f], face);
-      for (int k = 0; k < 3; ++k) {
-        block.edges += is_first(3 * f + k) ? 1 : 0;
-        block.length += face.length[k];
-        block.longest = std::max(block.longest, face.length[k]);
-      }
+      face.reversed = face.touching = 0;
+      set_lengths(mesh_.lengths[f], face, block.lengths);
+      for (int k = 0; k < 3; ++k) block.edges += is_first(3 * f + k) ? 1 : 0;
     }
     return block;
   }
 
-  void write_edges(std::int64_t begin, std::int64_t end, Index next) {
+  void number_edges(std::int64_t begin, std::int64_t end, Index next) {
     for (std::int64_t i = begin; i < end; ++i) {
       const int start = first_corner(tables_.faces[i].vertex);
       for (const int k : {start, next_corner(start), previous_corner(start)}) {
         const Side side = 3 * tables_.intrinsic_face[i] + k;
-        if (!is_first(side)) continue;
-        const Index edge = surface_.edge_of_side(side);
-        const auto sides = surface_.sides_of(edge);
-        const SideCode second =
-            sides.size() == 2 ? code_of(sides[0] == side ? sides[1] : sides[0]) : kNoSideCode;
-        tables_.sides[next] = {code_of(side), second};
-        number_[edge] = next++;
+        if (is_first(side)) number_[surface_.edge_of_side(side)] = next++;
       }
     }
   }
 
-  void add_further_sides() {
-    for (auto& [first, second] : tables_.sides) {
-      if (second != kNoSideCode) continue;
-      const auto sides = surface_.sides_of(surface_.edge_of_side(side_of(first)));
-      if (sides.size() < 3) continue;
-      second = -2 - static_cast<SideCode>(tables_.more.size());
-      tables_.more.push_back(static_cast<SideCode>(sides.size()) - 1);
-      for (const Side side : sides) {
-        if (code_of(side) != first) tables_.more.push_back(code_of(side));
-      }
-      std::sort(tables_.more.end() - static_cast<std::ptrdiff_t>(sides.size()) + 1,
-                tables_.more.end());
-    }
-  }
-
-  void join_edges(Index i) {
-    WaveFace& face = tables_.faces[i];
-    face.reversed = face.touching = 0;
+  void name_edges(Index i) {
+    const Side first = 3 * tables_.intrinsic_face[i];
     for (int k = 0; k < 3; ++k) {
-      const Side side = 3 * tables_.intrinsic_face[i] + k;
-      face.edge[k] = number_[surface_.edge_of_side(side)];
-      if (!same_direction(mesh_, side_of(tables_.sides[face.edge[k]][0]), side)) {
-        face.reversed = static_cast<std::uint16_t>(face.reversed | 1U << k);
-      }
+      tables_.faces[i].edge[k] = number_[surface_.edge_of_side(first + k)];
     }
   }
 
@@ -273,12 +199,13 @@ std::size_t bytes_of(const Values& values) {
 std::size_t WaveTables::bytes() const {
   return bytes_of(faces) + bytes_of(sides) + bytes_of(more) + bytes_of(rank_of_vertex) +
          bytes_of(vertex_of_rank) + bytes_of(rank_of_face) + bytes_of(intrinsic_face) +
-         bytes_of(corner_start) + bytes_of(corners);
+         bytes_of(corner_start) + bytes_of(corners) + bytes_of(morton);
 }
 
 WaveTables build_wave_tables(const WaveSurface& surface, int threads) {
   WaveTables tables;
-  tables.vertex_of_rank = morton_order(surface.base, threads);
+  tables.morton = morton_numbers(surface.base, threads);
+  tables.vertex_of_rank = morton_order(surface.base, tables.morton, threads);
   tables.rank_of_vertex.assign(static_cast<std::size_t>(surface.base.vertex_count()), kNoIndex);
   for (std::size_t r = 0; r < tables.vertex_of_rank.size(); ++r) {
     tables.rank_of_vertex[tables.vertex_of_rank[r]] = static_cast<Index>(r);
@@ -286,35 +213,6 @@ WaveTables build_wave_tables(const WaveSurface& surface, int threads) {
   FaceWriter(surface, tables, threads).run();
   list_corners(tables);
   mark_fans(tables, threads);
-  mark_touching(tables, threads);
-  return tables;
-}
-
-WaveTables moved_wave_tables(const WaveTables& earlier, const WaveSurface& surface, int threads) {
-  WaveTables tables = earlier;
-  struct Sides {
-    double length = 0, longest = 0;
-  };
-  const std::int64_t count = std::ssize(tables.faces);
-  tables.longest_side = tables.mean_side = 0;
-  for (const Sides& block :
-       sums_of_blocks<Sides>(threads, count, [&](std::int64_t begin, std::int64_t end) {
-         Sides sides;
-         for (std::int64_t i = begin; i < end; ++i) {
-           WaveFace& face = tables.faces[i];
-           face.touching = 0;
-           set_lengths(surface.base.intrinsic.lengths[tables.intrinsic_face[i]], face);
-           for (const double length : face.length) {
-             sides.length += length;
-             sides.longest = std::max(sides.longest, length);
-           }
-         }
-         return sides;
-       })) {
-    tables.mean_side += block.length;
-    tables.longest_side = std::max(tables.longest_side, block.longest);
-  }
-  tables.mean_side /= 3.0 * static_cast<double>(count);
   mark_touching(tables, threads);
   return tables;
 }

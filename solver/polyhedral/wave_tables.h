@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "solver/core/memory.h"
@@ -29,14 +30,18 @@ inline constexpr SideCode kNoSideCode = -1;
 inline Index face_of_code(SideCode code) { return code >> 2; }
 inline int corner_of_code(SideCode code) { return code & 3; }
 
+/// By which vertices are put in order: their number along a Morton curve, then in the file.
+using Place = std::pair<std::uint64_t, Index>;
+
 /// A WaveSurface laid out for one pass over memory: vertices in Morton order, faces and edges in
-/// the order in which that meets them, whatever the order of the file. Immutable. An edge has the
-/// direction of its first side.
+/// the order in which that meets them, whatever the order of the file; those of a surface that has
+/// moved have the numbers from before. What a wave visits first is told by places alone, so that
+/// both give the same distances. Immutable. An edge has the direction of its first side.
 struct WaveTables {
-  std::vector<WaveFace> faces;
+  RawVector<WaveFace> faces;
   /// Each edge's first and second side. The second is kNoSideCode at the boundary; below that,
   /// -2 - i, where more[i] holds a count and then the second and all further sides.
-  std::vector<std::array<SideCode, 2>> sides;
+  RawVector<std::array<SideCode, 2>> sides;
   std::vector<SideCode> more;
 
   std::vector<Index> rank_of_vertex;      ///< V and inserted: number here, kNoIndex when in no face
@@ -46,11 +51,14 @@ struct WaveTables {
   std::vector<std::size_t> corner_start;  ///< n + 1
   std::vector<SideCode> corners;  ///< at each vertex, as the code of the side that begins there
 
-  double mean_side = 0, longest_side = 0;
+  std::vector<std::uint64_t> morton;  ///< V and inserted: numbers along the curve
+
+  double mean_side = 0, longest_side = 0;  ///< the mean to eight digits
 
   std::span<const SideCode> corners_at(Index rank) const {
     return {corners.data() + corner_start[rank], corners.data() + corner_start[rank + 1]};
   }
+  Place place(Index vertex) const { return {morton[vertex], vertex}; }
   Index vertex_count() const { return static_cast<Index>(vertex_of_rank.size()); }
   Index edge_count() const { return static_cast<Index>(sides.size()); }
   std::size_t bytes() const;
@@ -59,9 +67,13 @@ struct WaveTables {
 /// The same with any number of threads. Cost: O(F + V log V).
 WaveTables build_wave_tables(const WaveSurface& surface, int threads = 1);
 
-/// The tables of a surface that has the triangles of the one from which `earlier` were built, and
-/// other lengths. Cost: a pass over the faces, and one over their corners.
-WaveTables moved_wave_tables(const WaveTables& earlier, const WaveSurface& surface,
-                             int threads = 1);
+/// Whether the tables of one surface can be made from those of another: the same clean faces with
+/// nothing but flips, wherever the vertices are.
+bool can_move_tables(const IntrinsicSurface& before, const IntrinsicSurface& now);
+
+/// The same, from the tables of `before`: with other numbers, and the same distances. Precondition:
+/// can_move_tables(). Cost: O(F), less than half of the above.
+WaveTables moved_wave_tables(const WaveTables& earlier, const WaveSurface& before,
+                             const WaveSurface& surface, int threads = 1);
 
 }  // namespace geotherm

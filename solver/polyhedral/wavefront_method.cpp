@@ -207,11 +207,13 @@ Result<std::shared_ptr<const WavefrontMethod>> WavefrontMethod::build(
     const int worth = threads_worth_starting(thread_count(threads), kSetUpNanoseconds * faces);
     const ThreadCrew crew(worth);
     const State* const before = earlier != nullptr ? earlier->state_.get() : nullptr;
-    const bool same_tables = before != nullptr && before->surface->edges == state->surface->edges;
-    state->tables = same_tables ? moved_wave_tables(before->tables, *state->surface, worth)
-                                : build_wave_tables(*state->surface, worth);
+    const bool moves =
+        before != nullptr && can_move_tables(before->surface->base, state->surface->base);
+    state->tables =
+        moves ? moved_wave_tables(before->tables, *before->surface, *state->surface, worth)
+              : build_wave_tables(*state->surface, worth);
     state->pool = std::make_unique<FrontPool>(state->tables, samples == Samples::kMidpoint ? 1 : 3);
-    if (same_tables && before->samples == samples) {
+    if (moves && before->samples == samples) {
       if (auto spare = before->pool->take_spare(false)) {
         state->pool->give(std::make_unique<WaveFront>(state->tables, std::move(*spare)));
       }

@@ -27,7 +27,7 @@ Index root_of(std::vector<Index>& parent, Index i) {
 
 /// For each corner the first of the fan that it belongs to.
 std::vector<Index> fans(const WaveSurface& surface) {
-  std::vector<Index> parent(surface.edges->of_side.size());
+  std::vector<Index> parent(surface.edges().of_side.size());
   std::iota(parent.begin(), parent.end(), Index{0});
   for (Index e = 0; e < surface.edge_count(); ++e) {
     const auto around = surface.sides_of(e);

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+
+#include "solver/polyhedral/wave_tables.h"
+
+// The sides of WaveTables, once its faces have corners and edges.
+namespace geotherm {
+
+/// Of a block of faces, in units of the intrinsic mesh.
+struct SideLengths {
+  double sum = 0, longest = 0;
+};
+
+/// Sets the lengths of a face, and adds them.
+void set_lengths(const std::array<double, 3>& lengths, WaveFace& face, SideLengths& block);
+
+/// Sets what the tables say of the lengths of all sides.
+void sum_up(std::span<const SideLengths> blocks, WaveTables& tables);
+
+/// Lists the sides of each edge, that of the face whose other corners come first before the others,
+/// and marks in WaveFace::reversed those that run against the first. Precondition: `reversed` says
+/// nothing of sides. Cost: a pass over the faces.
+void join_sides(const IntrinsicMesh& mesh, int threads, WaveTables& tables);
+
+}  // namespace geotherm
