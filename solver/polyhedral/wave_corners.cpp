@@ -134,9 +134,8 @@ void order_touching(WaveTables& tables, int threads) {
     const WaveFace& face = tables.faces[face_of_code(corner)];
     const int k = corner_of_code(corner);
     const auto place = [&](int i) { return tables.place(tables.vertex_of_rank[face.vertex[i]]); };
-    const auto others = std::minmax(place(next_corner(k)), place(previous_corner(k)));
-    return std::tuple(std::pair<Place, Place>(others), tables.intrinsic_face[face_of_code(corner)],
-                      k);
+    return std::tuple(std::minmax({place(next_corner(k)), place(previous_corner(k))}),
+                      tables.intrinsic_face[face_of_code(corner)], k);
   };
   parallel_for(threads, tables.vertex_count(), kMinCornersPerThread,
                [&](std::int64_t begin, std::int64_t end) {
