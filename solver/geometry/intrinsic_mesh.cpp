@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 #include "solver/core/parallel.h"
 #include "solver/geometry/clean_faces.h"
@@ -135,11 +134,18 @@ void add_to_components(std::vector<Lengths>& lengths, const FaceComponents& comp
 /// Minimum edges per thread.
 constexpr std::int64_t kMinEdgesPerThread = 1 << 14;
 
+/// Puts the larger first, without a branch: of two sides either is the longer as often.
+void put_in_order(double& a, double& b) {
+  const double larger = std::max(a, b);
+  b = std::min(a, b);
+  a = larger;
+}
+
 /// Four times the area by Kahan's formula, which stays accurate for needles: a >= b >= c.
 double four_areas(double a, double b, double c) {
-  if (a < b) std::swap(a, b);
-  if (b < c) std::swap(b, c);
-  if (a < b) std::swap(a, b);
+  put_in_order(a, b);
+  put_in_order(b, c);
+  put_in_order(a, b);
   const double product = (a + (b + c)) * (c - (a - b)) * (c + (a - b)) * (a + (b - c));
   return std::sqrt(std::max(product, 0.0));
 }

@@ -43,6 +43,16 @@ void set_bits(std::uint16_t WaveFace::*bits, unsigned first, std::span<const Sid
   }
 }
 
+/// By which the faces at a vertex are put in order: the places of their other two corners, and
+/// their numbers in the intrinsic mesh.
+auto face_place(const WaveTables& tables, SideCode corner) {
+  const WaveFace& face = tables.faces[face_of_code(corner)];
+  const int k = corner_of_code(corner);
+  const auto place = [&](int i) { return tables.place(tables.vertex_of_rank[face.vertex[i]]); };
+  return std::tuple(std::minmax({place(next_corner(k)), place(previous_corner(k))}),
+                    tables.intrinsic_face[face_of_code(corner)], k);
+}
+
 /// Marks the corners at vertices whose faces are not all joined by edges at the vertex, where a
 /// wave has to be passed from fan to fan.
 class FanMarker {
@@ -116,35 +126,19 @@ void list_corners(WaveTables& tables) {
 
 void mark_fans(WaveTables& tables, int threads) { FanMarker(tables).run(threads); }
 
-void mark_touching(WaveTables& tables, int threads) {
+void mark_touching(WaveTables& tables, int threads, bool sort) {
   parallel_for(threads, tables.vertex_count(), kMinCornersPerThread,
                [&](std::int64_t begin, std::int64_t end) {
                  for (std::int64_t v = begin; v < end; ++v) {
                    const auto corners = tables.corners_at(static_cast<Index>(v));
-                   if (fans_touch(tables, static_cast<Index>(v)) || is_stretched(tables, corners)) {
-                     set_bits(&WaveFace::touching, 0, corners, tables);
-                   }
-                 }
-               });
-}
-
-void order_touching(WaveTables& tables, int threads) {
-  // Faces that have one corner in common are in the order of the other two.
-  const auto key = [&tables](SideCode corner) {
-    const WaveFace& face = tables.faces[face_of_code(corner)];
-    const int k = corner_of_code(corner);
-    const auto place = [&](int i) { return tables.place(tables.vertex_of_rank[face.vertex[i]]); };
-    return std::tuple(std::minmax({place(next_corner(k)), place(previous_corner(k))}),
-                      tables.intrinsic_face[face_of_code(corner)], k);
-  };
-  parallel_for(threads, tables.vertex_count(), kMinCornersPerThread,
-               [&](std::int64_t begin, std::int64_t end) {
-                 for (std::int64_t v = begin; v < end; ++v) {
+                   if (!fans_touch(tables, static_cast<Index>(v)) && !is_stretched(tables, corners))
+                     continue;
+                   set_bits(&WaveFace::touching, 0, corners, tables);
+                   if (!sort) continue;
                    SideCode* const first = tables.corners.data() + tables.corner_start[v];
-                   const WaveFace& face = tables.faces[face_of_code(*first)];
-                   if ((face.touching >> corner_of_code(*first) & 1U) == 0) continue;
-                   std::sort(first, tables.corners.data() + tables.corner_start[v + 1],
-                             [&key](SideCode a, SideCode b) { return key(a) < key(b); });
+                   std::sort(first, first + corners.size(), [&tables](SideCode a, SideCode b) {
+                     return face_place(tables, a) < face_place(tables, b);
+                   });
                  }
                });
 }

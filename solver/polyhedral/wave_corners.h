@@ -24,11 +24,9 @@ inline bool fans_touch(const WaveTables& tables, Index rank) {
 }
 
 /// Marks in WaveFace::touching the corners at which a vertex hands its distance on by itself: those
-/// where fans touch, and those with sides of very different lengths.
-void mark_touching(WaveTables& tables, int threads);
-
-/// Puts the corners at each of these vertices in the order that a fresh build has: by their faces,
-/// whose order is that of their corners' places. Elsewhere no wave asks for them in order.
-void order_touching(WaveTables& tables, int threads);
+/// where fans touch, and those with sides of very different lengths. `sort`: puts the corners there
+/// in the order that they have in tables that are new, which is that of their faces' places; at
+/// other vertices no wave asks for them in order.
+void mark_touching(WaveTables& tables, int threads, bool sort = false);
 
 }  // namespace geotherm

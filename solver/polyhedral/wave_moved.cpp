@@ -42,7 +42,7 @@ class FaceCarrier {
   }
 
   /// By the faces' numbers in the tables.
-  bool is_changed(std::int64_t face) const { return changed_[face] != 0; }
+  const std::vector<char>& changed() const { return changed_; }
 
   void run() {
     for_each_with_value(changed_, char{1}, [this](Index i) { let_go(i); });
@@ -51,6 +51,7 @@ class FaceCarrier {
   }
 
  private:
+  bool is_changed(Index face) const { return changed_[face] != 0; }
   Index rank(Index face) const { return earlier_.rank_of_face[face]; }
 
   void let_go(Index i) {
@@ -117,20 +118,19 @@ WaveTables moved_wave_tables(const WaveTables& earlier, const WaveSurface& befor
   tables.intrinsic_face = earlier.intrinsic_face;
   tables.morton = morton_numbers(surface.base, threads);
   tables.faces.resize(earlier.faces.size());
-  tables.sides.resize(earlier.sides.size());
+  tables.sides = earlier.sides;
   FaceCarrier carrier(earlier, before, surface, tables);
   carrier.run();
-  constexpr unsigned kOfFans = 7U << kFanBits;
   const auto blocks = sums_of_blocks<SideLengths>(
       threads, std::ssize(tables.faces), [&](std::int64_t begin, std::int64_t end) {
         SideLengths lengths;
         for (std::int64_t i = begin; i < end; ++i) {
           WaveFace& face = tables.faces[i];
-          if (!carrier.is_changed(i)) {
+          if (carrier.changed()[i] == 0) {
             const WaveFace& old = earlier.faces[i];
             face.vertex = old.vertex;
             face.edge = old.edge;
-            face.reversed = static_cast<std::uint16_t>(old.reversed & kOfFans);
+            face.reversed = old.reversed;
           }
           face.touching = 0;
           set_lengths(surface.base.intrinsic.lengths[tables.intrinsic_face[i]], face, lengths);
@@ -138,10 +138,9 @@ WaveTables moved_wave_tables(const WaveTables& earlier, const WaveSurface& befor
         return lengths;
       });
   sum_up(blocks, tables);
-  join_sides(surface.base.intrinsic, threads, tables);
+  rejoin_sides(surface.base.intrinsic, carrier.changed(), threads, tables);
   list_corners(tables);
-  mark_touching(tables, threads);
-  order_touching(tables, threads);
+  mark_touching(tables, threads, true);
   return tables;
 }
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include "solver/core/parallel.h"
@@ -16,12 +17,17 @@ class SideJoiner {
   SideJoiner(const IntrinsicMesh& mesh, WaveTables& tables) : mesh_(mesh), tables_(tables) {}
 
   void run(int threads) {
-    const auto blocks = sums_of_blocks<SidesOfEdges>(
-        threads, std::ssize(tables_.faces),
-        [this](std::int64_t begin, std::int64_t end) { return join_twins(begin, end); });
-    SidesOfEdges alone;
-    for (const SidesOfEdges& block : blocks) alone.insert(alone.end(), block.begin(), block.end());
-    join_others(alone);
+    join_others(in_blocks(threads, [this](std::int64_t begin, std::int64_t end) {
+                  return join_twins(begin, end);
+                }).alone);
+  }
+
+  void run_again(const std::vector<char>& changed, int threads) {
+    Found found = in_blocks(threads, [&](std::int64_t begin, std::int64_t end) {
+      return find_changes(changed, begin, end);
+    });
+    for (const Side side : found.twins) join_pair(side, mesh_.twin[side]);
+    join_others(found.alone);
   }
 
  private:
@@ -30,6 +36,20 @@ class SideJoiner {
     SideCode side;
   };
   using SidesOfEdges = std::vector<SideOfEdge>;
+  struct Found {
+    SidesOfEdges alone;       ///< sides that have no twin
+    std::vector<Side> twins;  ///< whose edges are to be joined anew
+  };
+
+  template <class Pass>
+  Found in_blocks(int threads, const Pass& pass) const {
+    Found all;
+    for (const Found& block : sums_of_blocks<Found>(threads, std::ssize(tables_.faces), pass)) {
+      all.alone.insert(all.alone.end(), block.alone.begin(), block.alone.end());
+      all.twins.insert(all.twins.end(), block.twins.begin(), block.twins.end());
+    }
+    return all;
+  }
 
   SideCode code_of(Side side) const {
     return static_cast<SideCode>(4 * tables_.rank_of_face[face_of(side)] + corner_of(side));
@@ -65,24 +85,52 @@ class SideJoiner {
     return (corner_of(side) + 3 - best) % 3;
   }
 
-  /// Returns the sides that have no twin.
-  SidesOfEdges join_twins(std::int64_t begin, std::int64_t end) {
-    SidesOfEdges alone;
+  Found join_twins(std::int64_t begin, std::int64_t end) {
+    Found found;
     for (std::int64_t i = begin; i < end; ++i) {
       WaveFace& face = tables_.faces[i];
       for (int k = 0; k < 3; ++k) {
         const Side side = 3 * tables_.intrinsic_face[i] + k;
         const Side twin = mesh_.twin[side];
         if (twin == kNoSide) {
-          alone.push_back({face.edge[k], code_of(side)});
+          found.alone.push_back({face.edge[k], code_of(side)});
         } else if (comes_first(side, twin)) {
           tables_.sides[face.edge[k]] = {code_of(side), code_of(twin)};
         } else {
-          reverse(face, k);
+          set_reversed(side, true);
         }
       }
     }
-    return alone;
+    return found;
+  }
+
+  /// Edges with other faces than before, and those whose first side comes after the second now.
+  Found find_changes(const std::vector<char>& changed, std::int64_t begin, std::int64_t end) {
+    Found found;
+    for (std::int64_t i = begin; i < end; ++i) {
+      WaveFace& face = tables_.faces[i];
+      for (int k = 0; k < 3; ++k) {
+        const Side side = 3 * tables_.intrinsic_face[i] + k;
+        const Side twin = mesh_.twin[side];
+        if (twin == kNoSide) {
+          set_reversed(side, false);
+          found.alone.push_back({face.edge[k], code_of(side)});
+        } else if (changed[i] != 0) {
+          found.twins.push_back(side);
+        } else if ((face.reversed >> k & 1U) == 0 && !comes_first(side, twin)) {
+          found.twins.push_back(side);
+        }
+      }
+    }
+    return found;
+  }
+
+  void join_pair(Side side, Side twin) {
+    if (!comes_first(side, twin)) std::swap(side, twin);
+    const Index edge = tables_.faces[tables_.rank_of_face[face_of(side)]].edge[corner_of(side)];
+    tables_.sides[edge] = {code_of(side), code_of(twin)};
+    set_reversed(side, false);
+    set_reversed(twin, true);
   }
 
   /// The boundary, and edges whose sides are no twins.
@@ -115,13 +163,14 @@ class SideJoiner {
       tables_.more.insert(tables_.more.end(), sides.begin() + 1, sides.end());
     }
     for (const SideCode side : sides) {
-      if (start(side_of(side)) == start(side_of(sides[0]))) continue;
-      reverse(tables_.faces[face_of_code(side)], corner_of_code(side));
+      set_reversed(side_of(side), start(side_of(side)) != start(side_of(sides[0])));
     }
   }
 
-  static void reverse(WaveFace& face, int k) {
-    face.reversed = static_cast<std::uint16_t>(face.reversed | 1U << k);
+  void set_reversed(Side side, bool reversed) {
+    std::uint16_t& bits = tables_.faces[tables_.rank_of_face[face_of(side)]].reversed;
+    const unsigned bit = 1U << corner_of(side);
+    bits = static_cast<std::uint16_t>(reversed ? bits | bit : bits & ~bit);
   }
 
   const IntrinsicMesh& mesh_;
@@ -156,6 +205,11 @@ void sum_up(std::span<const SideLengths> blocks, WaveTables& tables) {
 
 void join_sides(const IntrinsicMesh& mesh, int threads, WaveTables& tables) {
   SideJoiner(mesh, tables).run(threads);
+}
+
+void rejoin_sides(const IntrinsicMesh& mesh, const std::vector<char>& changed, int threads,
+                  WaveTables& tables) {
+  SideJoiner(mesh, tables).run_again(changed, threads);
 }
 
 }  // namespace geotherm
