@@ -27,13 +27,15 @@ struct LoadRow {
 /// it `runs` times with each reader.
 LoadRow measure_load(const std::string& name, const TriangleMesh& mesh, int runs);
 
-/// Set-up and one query by heat for each frame of a waving model. Times are means over the frames.
+/// Set-up and one query for each frame of a waving model. Times are means over the frames.
 struct MovingRow {
+  MethodKind method = MethodKind::kHeat;
   std::string mesh;
   Index faces = 0;
   int frames = 0;
   double fresh_ms = kNotMeasured;    ///< everything is made for each frame
   double moved_ms = kNotMeasured;    ///< build_method_moved() from the frame before
+  double query_ms = kNotMeasured;    ///< of `moved_ms`, the query
   double difference = kNotMeasured;  ///< of their distances, over the largest one
   std::string failure = {};          ///< empty: none
 
@@ -41,8 +43,8 @@ struct MovingRow {
 };
 
 /// Precondition: frames >= 1. Both ways take turns.
-MovingRow measure_moving(const std::string& name, const TriangleMesh& mesh, int frames,
-                         int threads);
+MovingRow measure_moving(MethodKind method, const std::string& name, const TriangleMesh& mesh,
+                         int frames, int threads);
 
 /// All contenders on one mesh.
 struct SolveGroup {

@@ -96,9 +96,11 @@ BenchRun measure_all(const Arguments& arguments, std::FILE* out) {
   if (std::regex_search("moving", plan.only)) {
     say("a surface that moves");
     for (const Index faces : kMovingFaces) {
-      if (const auto mesh = make_mesh("gargoyle", faces)) {
+      const auto mesh = make_mesh("gargoyle", faces);
+      if (!mesh) continue;
+      for (const MethodKind method : {MethodKind::kHeat, MethodKind::kWavefront}) {
         run.moving.push_back(
-            measure_moving("gargoyle", *mesh, arguments.quick ? 4 : 12, arguments.threads));
+            measure_moving(method, "gargoyle", *mesh, arguments.quick ? 4 : 12, arguments.threads));
       }
     }
     say("");

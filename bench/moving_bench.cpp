@@ -9,14 +9,15 @@
 #include "solver/core/stopwatch.h"
 
 namespace geotherm::bench {
-MovingRow measure_moving(const std::string& name, const TriangleMesh& mesh, int frames,
-                         int threads) {
-  MovingRow row{.mesh = name, .faces = mesh.face_count(), .frames = frames};
+MovingRow measure_moving(MethodKind method, const std::string& name, const TriangleMesh& mesh,
+                         int frames, int threads) {
+  MovingRow row{.method = method, .mesh = name, .faces = mesh.face_count(), .frames = frames};
   MethodOptions options;
+  options.method = method;
   options.threads = threads;
   const SourceSet sources = SourceSet::of_vertices({0});
   const QueryOptions query{.quality = false};
-  double fresh_ms = 0, moved_ms = 0, difference = 0;
+  double fresh_ms = 0, moved_ms = 0, query_ms = 0, difference = 0;
   std::shared_ptr<const DistanceMethod> earlier;
   for (int k = 0; k <= frames; ++k) {  // the first one has no earlier one
     const double phase = 2 * std::numbers::pi * k / frames;
@@ -38,9 +39,11 @@ MovingRow measure_moving(const std::string& name, const TriangleMesh& mesh, int 
     if (k == 0) continue;
     fresh_ms += fresh_time;
     moved_ms += moved_time;
+    query_ms += after->timing.query;
   }
   row.fresh_ms = fresh_ms / frames;
   row.moved_ms = moved_ms / frames;
+  row.query_ms = query_ms / frames;
   row.difference = difference;
   return row;
 }

@@ -110,11 +110,13 @@ std::string to_json(const BenchRun& run) {
                            {"message", row.failure}});
   }
   for (const MovingRow& row : run.moving) {
-    out["moving"].push_back({{"mesh", row.mesh},
+    out["moving"].push_back({{"method", to_text(row.method)},
+                             {"mesh", row.mesh},
                              {"faces", row.faces},
                              {"frames", row.frames},
                              {"fresh_ms", value(row.fresh_ms)},
                              {"moved_ms", value(row.moved_ms)},
+                             {"query_ms", value(row.query_ms)},
                              {"ratio", value(row.ratio())},
                              {"difference", value(row.difference)},
                              {"message", row.failure}});

@@ -115,11 +115,13 @@ std::string load_text(const LoadRow& row) {
 }
 
 std::string moving_text(const MovingRow& row) {
-  std::string out = format("\nA frame of %s waving, %d faces, %d frames: ", row.mesh.c_str(),
-                           row.faces, row.frames);
+  std::string out = format("\nA frame of %s waving by %s, %d faces, %d frames: ", row.mesh.c_str(),
+                           to_text(row.method).c_str(), row.faces, row.frames);
   if (!row.failure.empty()) return out + "failed: " + row.failure + "\n";
-  return out + format("afresh %.0f ms, after the one before %.0f ms, x%.2f (%.1e apart)\n",
-                      row.fresh_ms, row.moved_ms, row.ratio(), row.difference);
+  return out + format(
+                   "afresh %.0f ms, after the one before %.0f ms, %.0f of them the query, "
+                   "x%.2f (%.1e apart)\n",
+                   row.fresh_ms, row.moved_ms, row.query_ms, row.ratio(), row.difference);
 }
 
 std::string render_text(const RenderBench& bench) {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "solver/core/parallel.h"
+#include "solver/polyhedral/wave_places.h"
 
 namespace geotherm {
 namespace {
@@ -45,10 +46,10 @@ void set_bits(std::uint16_t WaveFace::*bits, unsigned first, std::span<const Sid
 
 /// By which the faces at a vertex are put in order: the places of their other two corners, and
 /// their numbers in the intrinsic mesh.
-auto face_place(const WaveTables& tables, SideCode corner) {
+auto face_place(const IntrinsicSurface& base, const WaveTables& tables, SideCode corner) {
   const WaveFace& face = tables.faces[face_of_code(corner)];
   const int k = corner_of_code(corner);
-  const auto place = [&](int i) { return tables.place(tables.vertex_of_rank[face.vertex[i]]); };
+  const auto place = [&](int i) { return place_of(base, tables.vertex_of_rank[face.vertex[i]]); };
   return std::tuple(std::minmax({place(next_corner(k)), place(previous_corner(k))}),
                     tables.intrinsic_face[face_of_code(corner)], k);
 }
@@ -126,7 +127,7 @@ void list_corners(WaveTables& tables) {
 
 void mark_fans(WaveTables& tables, int threads) { FanMarker(tables).run(threads); }
 
-void mark_touching(WaveTables& tables, int threads, bool sort) {
+void mark_touching(WaveTables& tables, int threads, const IntrinsicSurface& base) {
   parallel_for(threads, tables.vertex_count(), kMinCornersPerThread,
                [&](std::int64_t begin, std::int64_t end) {
                  for (std::int64_t v = begin; v < end; ++v) {
@@ -134,10 +135,9 @@ void mark_touching(WaveTables& tables, int threads, bool sort) {
                    if (!fans_touch(tables, static_cast<Index>(v)) && !is_stretched(tables, corners))
                      continue;
                    set_bits(&WaveFace::touching, 0, corners, tables);
-                   if (!sort) continue;
                    SideCode* const first = tables.corners.data() + tables.corner_start[v];
-                   std::sort(first, first + corners.size(), [&tables](SideCode a, SideCode b) {
-                     return face_place(tables, a) < face_place(tables, b);
+                   std::sort(first, first + corners.size(), [&](SideCode a, SideCode b) {
+                     return face_place(base, tables, a) < face_place(base, tables, b);
                    });
                  }
                });

@@ -24,9 +24,8 @@ inline bool fans_touch(const WaveTables& tables, Index rank) {
 }
 
 /// Marks in WaveFace::touching the corners at which a vertex hands its distance on by itself: those
-/// where fans touch, and those with sides of very different lengths. `sort`: puts the corners there
-/// in the order that they have in tables that are new, which is that of their faces' places; at
-/// other vertices no wave asks for them in order.
-void mark_touching(WaveTables& tables, int threads, bool sort = false);
+/// where fans touch, and those with sides of very different lengths. There a wave asks for corners
+/// in order, by the places of their faces. Those of the surface `base` are put in it.
+void mark_touching(WaveTables& tables, int threads, const IntrinsicSurface& base);
 
 }  // namespace geotherm

@@ -8,7 +8,6 @@
 #include "solver/core/parallel.h"
 #include "solver/core/sorting.h"
 #include "solver/polyhedral/wave_corners.h"
-#include "solver/polyhedral/wave_places.h"
 #include "solver/polyhedral/wave_sides.h"
 #include "solver/polyhedral/wave_tables.h"
 
@@ -110,15 +109,15 @@ bool can_move_tables(const IntrinsicSurface& before, const IntrinsicSurface& now
 }
 
 WaveTables moved_wave_tables(const WaveTables& earlier, const WaveSurface& before,
-                             const WaveSurface& surface, int threads) {
-  WaveTables tables;
+                             const WaveSurface& surface, int threads, WaveTables memory) {
+  WaveTables tables = std::move(memory);
   tables.rank_of_vertex = earlier.rank_of_vertex;
   tables.vertex_of_rank = earlier.vertex_of_rank;
   tables.rank_of_face = earlier.rank_of_face;
   tables.intrinsic_face = earlier.intrinsic_face;
-  tables.morton = morton_numbers(surface.base, threads);
   tables.faces.resize(earlier.faces.size());
   tables.sides = earlier.sides;
+  tables.more = earlier.more;
   FaceCarrier carrier(earlier, before, surface, tables);
   carrier.run();
   const auto blocks = sums_of_blocks<SideLengths>(
@@ -138,9 +137,9 @@ WaveTables moved_wave_tables(const WaveTables& earlier, const WaveSurface& befor
         return lengths;
       });
   sum_up(blocks, tables);
-  rejoin_sides(surface.base.intrinsic, carrier.changed(), threads, tables);
+  rejoin_sides(surface.base, carrier.changed(), threads, tables);
   list_corners(tables);
-  mark_touching(tables, threads, true);
+  mark_touching(tables, threads, surface.base);
   return tables;
 }
 

@@ -1,21 +1,19 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <cstdint>
-#include <vector>
+#include <tuple>
 
 #include "solver/geometry/intrinsic_surface.h"
 
 namespace geotherm {
 
-/// Whether a vertex is a corner of some face.
-inline bool is_used(const IntrinsicSurface& base, Index vertex) {
-  const std::vector<char>& on_surface = base.kept->on_surface;
-  return static_cast<std::size_t>(vertex) >= on_surface.size() || on_surface[vertex] != 0;
-}
+/// By which what a wave meets at one distance is put in order: the coordinates of a vertex, so that
+/// no numbering changes the distances, and its number where vertices lie on each other.
+using Place = std::tuple<double, double, double, Index>;
 
-/// V and inserted: the numbers of vertices along a space-filling curve (Morton 1966) through the
-/// box of those that are used; 0 for others.
-std::vector<std::uint64_t> morton_numbers(const IntrinsicSurface& base, int threads);
+inline Place place_of(const IntrinsicSurface& base, Index vertex) {
+  const Vec3& p = base.position(vertex);
+  return {p[0], p[1], p[2], vertex};
+}
 
 }  // namespace geotherm

@@ -4,73 +4,97 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <utility>
 #include <vector>
 
 #include "solver/core/parallel.h"
+#include "solver/core/sorting.h"
+#include "solver/polyhedral/wave_places.h"
 
 namespace geotherm {
 namespace {
 
 class SideJoiner {
  public:
-  SideJoiner(const IntrinsicMesh& mesh, WaveTables& tables) : mesh_(mesh), tables_(tables) {}
+  SideJoiner(const IntrinsicSurface& base, WaveTables& tables)
+      : base_(base),
+        mesh_(base.intrinsic),
+        tables_(tables),
+        x_(static_cast<std::size_t>(tables.vertex_count())) {
+    for (std::size_t rank = 0; rank < x_.size(); ++rank) {
+      x_[rank] = base.position(tables.vertex_of_rank[rank])[0];
+    }
+  }
 
   void run(int threads) {
-    join_others(in_blocks(threads, [this](std::int64_t begin, std::int64_t end) {
-                  return join_twins(begin, end);
-                }).alone);
+    std::vector<SideCode> alone;
+    for (const auto& block : sums_of_blocks<std::vector<SideCode>>(
+             threads, std::ssize(tables_.faces),
+             [this](std::int64_t begin, std::int64_t end) { return join_twins(begin, end); })) {
+      alone.insert(alone.end(), block.begin(), block.end());
+    }
+    join_others(alone);
   }
 
   void run_again(const std::vector<char>& changed, int threads) {
-    Found found = in_blocks(threads, [&](std::int64_t begin, std::int64_t end) {
-      return find_changes(changed, begin, end);
+    std::vector<Index> turned;
+    for (const auto& block : sums_of_blocks<std::vector<Index>>(
+             threads, std::ssize(tables_.sides), [&](std::int64_t begin, std::int64_t end) {
+               return find_turned(changed, begin, end);
+             })) {
+      turned.insert(turned.end(), block.begin(), block.end());
+    }
+    std::vector<SideCode> alone;
+    for (const Index edge : turned) {
+      const auto [first, second] = tables_.sides[edge];
+      if (second >= 0) {
+        join_pair(side_of(first));
+      } else {
+        list_again(first, second, changed, alone);
+      }
+    }
+    tables_.more.clear();
+    for_each_with_value(changed, char{1}, [&](Index face) {
+      for (SideCode code = 4 * face; code < 4 * face + 3; ++code) {
+        if (mesh_.twin[side_of(code)] == kNoSide) {
+          alone.push_back(code);
+        } else {
+          join_pair(side_of(code));
+        }
+      }
     });
-    for (const Side side : found.twins) join_pair(side, mesh_.twin[side]);
-    join_others(found.alone);
+    join_others(alone);
   }
 
  private:
-  struct SideOfEdge {
-    Index edge;
-    SideCode side;
-  };
-  using SidesOfEdges = std::vector<SideOfEdge>;
-  struct Found {
-    SidesOfEdges alone;       ///< sides that have no twin
-    std::vector<Side> twins;  ///< whose edges are to be joined anew
-  };
-
-  template <class Pass>
-  Found in_blocks(int threads, const Pass& pass) const {
-    Found all;
-    for (const Found& block : sums_of_blocks<Found>(threads, std::ssize(tables_.faces), pass)) {
-      all.alone.insert(all.alone.end(), block.alone.begin(), block.alone.end());
-      all.twins.insert(all.twins.end(), block.twins.begin(), block.twins.end());
-    }
-    return all;
-  }
-
   SideCode code_of(Side side) const {
     return static_cast<SideCode>(4 * tables_.rank_of_face[face_of(side)] + corner_of(side));
   }
   Side side_of(SideCode code) const {
     return 3 * tables_.intrinsic_face[face_of_code(code)] + corner_of_code(code);
   }
-  Place start(Side side) const {
-    return tables_.place(mesh_.faces[face_of(side)][corner_of(side)]);
+  Index edge_of(SideCode code) const {
+    return tables_.faces[face_of_code(code)].edge[corner_of_code(code)];
   }
-  Place beyond(Side side) const {
-    return tables_.place(mesh_.faces[face_of(side)][previous_corner(corner_of(side))]);
+  Place start(Side side) const {
+    return place_of(base_, mesh_.faces[face_of(side)][corner_of(side)]);
+  }
+  Index beyond(SideCode code) const {
+    return tables_.faces[face_of_code(code)].vertex[previous_corner(corner_of_code(code))];
   }
 
-  /// Whether the face of one side of an edge comes before that of another: by its corner beyond the
-  /// edge, since they have the others in common.
-  bool comes_first(Side side, Side other) const {
-    const Place here = beyond(side), there = beyond(other);
-    if (here != there) return here < there;
-    if (face_of(side) != face_of(other)) return face_of(side) < face_of(other);
-    return place_in_face(side) < place_in_face(other);
+  /// Whether the face of one side of an edge comes before that of another: by the place of its
+  /// corner beyond the edge, since they have the others in common.
+  bool comes_first(SideCode side, SideCode other) const {
+    const Index here = beyond(side), there = beyond(other);
+    if (x_[here] != x_[there]) return x_[here] < x_[there];
+    if (here != there) {
+      return place_of(base_, tables_.vertex_of_rank[here]) <
+             place_of(base_, tables_.vertex_of_rank[there]);
+    }
+    const Side s = side_of(side), t = side_of(other);
+    return face_of(s) != face_of(t) ? s < t : place_in_face(s) < place_in_face(t);
   }
 
   /// Counted from where the smallest of the three rotations of the face begins.
@@ -85,96 +109,101 @@ class SideJoiner {
     return (corner_of(side) + 3 - best) % 3;
   }
 
-  Found join_twins(std::int64_t begin, std::int64_t end) {
-    Found found;
+  /// Returns the sides that have no twin.
+  std::vector<SideCode> join_twins(std::int64_t begin, std::int64_t end) {
+    std::vector<SideCode> alone;
     for (std::int64_t i = begin; i < end; ++i) {
-      WaveFace& face = tables_.faces[i];
       for (int k = 0; k < 3; ++k) {
-        const Side side = 3 * tables_.intrinsic_face[i] + k;
-        const Side twin = mesh_.twin[side];
+        const auto code = static_cast<SideCode>(4 * i) + k;
+        const Side twin = mesh_.twin[side_of(code)];
         if (twin == kNoSide) {
-          found.alone.push_back({face.edge[k], code_of(side)});
-        } else if (comes_first(side, twin)) {
-          tables_.sides[face.edge[k]] = {code_of(side), code_of(twin)};
+          alone.push_back(code);
+        } else if (comes_first(code, code_of(twin))) {
+          tables_.sides[edge_of(code)] = {code, code_of(twin)};
         } else {
-          set_reversed(side, true);
+          set_reversed(code, true);
         }
       }
     }
-    return found;
+    return alone;
   }
 
-  /// Edges with other faces than before, and those whose first side comes after the second now.
-  Found find_changes(const std::vector<char>& changed, std::int64_t begin, std::int64_t end) {
-    Found found;
-    for (std::int64_t i = begin; i < end; ++i) {
-      WaveFace& face = tables_.faces[i];
-      for (int k = 0; k < 3; ++k) {
-        const Side side = 3 * tables_.intrinsic_face[i] + k;
-        const Side twin = mesh_.twin[side];
-        if (twin == kNoSide) {
-          set_reversed(side, false);
-          found.alone.push_back({face.edge[k], code_of(side)});
-        } else if (changed[i] != 0) {
-          found.twins.push_back(side);
-        } else if ((face.reversed >> k & 1U) == 0 && !comes_first(side, twin)) {
-          found.twins.push_back(side);
-        }
-      }
+  /// Edges between faces that are not changed whose first side comes after the second now, and all
+  /// with several sides that are no twins.
+  std::vector<Index> find_turned(const std::vector<char>& changed, std::int64_t begin,
+                                 std::int64_t end) const {
+    std::vector<Index> turned;
+    for (std::int64_t edge = begin; edge < end; ++edge) {
+      const auto [first, second] = tables_.sides[edge];
+      const bool stays = second < 0
+                             ? second == kNoSideCode
+                             : changed[face_of_code(first)] != 0 ||
+                                   changed[face_of_code(second)] != 0 || comes_first(first, second);
+      if (!stays) turned.push_back(static_cast<Index>(edge));
     }
-    return found;
+    return turned;
   }
 
-  void join_pair(Side side, Side twin) {
-    if (!comes_first(side, twin)) std::swap(side, twin);
-    const Index edge = tables_.faces[tables_.rank_of_face[face_of(side)]].edge[corner_of(side)];
-    tables_.sides[edge] = {code_of(side), code_of(twin)};
-    set_reversed(side, false);
-    set_reversed(twin, true);
+  void join_pair(Side side) {
+    SideCode first = code_of(side), second = code_of(mesh_.twin[side]);
+    if (!comes_first(first, second)) std::swap(first, second);
+    tables_.sides[edge_of(first)] = {first, second};
+    set_reversed(first, false);
+    set_reversed(second, true);
+  }
+
+  /// Adds the sides of an edge with several of them that are those from before.
+  void list_again(SideCode first, SideCode second, const std::vector<char>& changed,
+                  std::vector<SideCode>& alone) const {
+    const SideCode* const list = &tables_.more[static_cast<std::size_t>(-2 - second)];
+    std::vector<SideCode> sides(list + 1, list + 1 + list[0]);
+    sides.push_back(first);
+    std::ranges::copy_if(sides, std::back_inserter(alone),
+                         [&](SideCode side) { return changed[face_of_code(side)] == 0; });
   }
 
   /// The boundary, and edges whose sides are no twins.
-  void join_others(const SidesOfEdges& alone) {
-    for (const auto& [edge, side] : alone) tables_.sides[edge] = {kNoSideCode, kNoSideCode};
-    SidesOfEdges further;
-    for (const auto& [edge, side] : alone) {
-      if (tables_.sides[edge][0] == kNoSideCode) {
-        tables_.sides[edge][0] = side;
+  void join_others(const std::vector<SideCode>& alone) {
+    for (const SideCode side : alone) tables_.sides[edge_of(side)] = {kNoSideCode, kNoSideCode};
+    std::vector<SideCode> further;
+    for (const SideCode side : alone) {
+      SideCode& first = tables_.sides[edge_of(side)][0];
+      if (first == kNoSideCode) {
+        first = side;
+        set_reversed(side, false);
       } else {
-        further.push_back({edge, side});
+        further.push_back(side);
       }
     }
-    std::ranges::stable_sort(further, {}, &SideOfEdge::edge);
+    std::ranges::stable_sort(further, {}, [this](SideCode side) { return edge_of(side); });
     for (auto at = further.begin(); at != further.end();) {
-      const Index edge = at->edge;
+      const Index edge = edge_of(*at);
       std::vector<SideCode> sides = {tables_.sides[edge][0]};
-      for (; at != further.end() && at->edge == edge; ++at) sides.push_back(at->side);
+      for (; at != further.end() && edge_of(*at) == edge; ++at) sides.push_back(*at);
       list(sides, tables_.sides[edge]);
     }
   }
 
   void list(std::vector<SideCode>& sides, std::array<SideCode, 2>& out) {
-    std::ranges::sort(
-        sides, [this](SideCode a, SideCode b) { return comes_first(side_of(a), side_of(b)); });
-    out[0] = sides[0];
-    out[1] = sides.size() == 2 ? sides[1] : -2 - static_cast<SideCode>(tables_.more.size());
-    if (sides.size() > 2) {
-      tables_.more.push_back(static_cast<SideCode>(sides.size()) - 1);
-      tables_.more.insert(tables_.more.end(), sides.begin() + 1, sides.end());
-    }
+    std::ranges::sort(sides, [this](SideCode a, SideCode b) { return comes_first(a, b); });
+    out = {sides[0], -2 - static_cast<SideCode>(tables_.more.size())};
+    tables_.more.push_back(static_cast<SideCode>(sides.size()) - 1);
+    tables_.more.insert(tables_.more.end(), sides.begin() + 1, sides.end());
     for (const SideCode side : sides) {
-      set_reversed(side_of(side), start(side_of(side)) != start(side_of(sides[0])));
+      set_reversed(side, start(side_of(side)) != start(side_of(sides[0])));
     }
   }
 
-  void set_reversed(Side side, bool reversed) {
-    std::uint16_t& bits = tables_.faces[tables_.rank_of_face[face_of(side)]].reversed;
-    const unsigned bit = 1U << corner_of(side);
+  void set_reversed(SideCode code, bool reversed) {
+    std::uint16_t& bits = tables_.faces[face_of_code(code)].reversed;
+    const unsigned bit = 1U << corner_of_code(code);
     bits = static_cast<std::uint16_t>(reversed ? bits | bit : bits & ~bit);
   }
 
+  const IntrinsicSurface& base_;
   const IntrinsicMesh& mesh_;
   WaveTables& tables_;
+  RawVector<double> x_;  ///< of each vertex in the tables: nearly always tells which comes first
 };
 
 }  // namespace
@@ -203,13 +232,13 @@ void sum_up(std::span<const SideLengths> blocks, WaveTables& tables) {
   tables.mean_side = std::ldexp(std::round(mean * kDigits) / kDigits, exponent);
 }
 
-void join_sides(const IntrinsicMesh& mesh, int threads, WaveTables& tables) {
-  SideJoiner(mesh, tables).run(threads);
+void join_sides(const IntrinsicSurface& base, int threads, WaveTables& tables) {
+  SideJoiner(base, tables).run(threads);
 }
 
-void rejoin_sides(const IntrinsicMesh& mesh, const std::vector<char>& changed, int threads,
+void rejoin_sides(const IntrinsicSurface& base, const std::vector<char>& changed, int threads,
                   WaveTables& tables) {
-  SideJoiner(mesh, tables).run_again(changed, threads);
+  SideJoiner(base, tables).run_again(changed, threads);
 }
 
 }  // namespace geotherm

@@ -21,14 +21,14 @@ void set_lengths(const std::array<double, 3>& lengths, WaveFace& face, SideLengt
 /// Sets what the tables say of the lengths of all sides.
 void sum_up(std::span<const SideLengths> blocks, WaveTables& tables);
 
-/// Lists the sides of each edge, that of the face whose other corner comes first before the others,
-/// and marks in WaveFace::reversed those that run against the first. Precondition: `reversed` says
-/// nothing of sides. Cost: a pass over the faces.
-void join_sides(const IntrinsicMesh& mesh, int threads, WaveTables& tables);
+/// Lists the sides of each edge, that of the face whose other corner comes first (Place) before the
+/// others, and marks in WaveFace::reversed those that run against the first. Precondition:
+/// `reversed` says nothing of sides. Cost: a pass over the faces.
+void join_sides(const IntrinsicSurface& base, int threads, WaveTables& tables);
 
-/// The same where sides and faces are those from before the surface moved, but for the edges of
-/// faces that are `changed`, by their numbers in the tables. Cost: less than half of the above.
-void rejoin_sides(const IntrinsicMesh& mesh, const std::vector<char>& changed, int threads,
+/// The same where sides and `reversed` are those from before the surface moved, but in faces that
+/// are `changed`, by their numbers in the tables. Cost: a quicker pass over the edges.
+void rejoin_sides(const IntrinsicSurface& base, const std::vector<char>& changed, int threads,
                   WaveTables& tables);
 
 }  // namespace geotherm

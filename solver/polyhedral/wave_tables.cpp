@@ -9,37 +9,60 @@
 #include "solver/core/parallel.h"
 #include "solver/core/sorting.h"
 #include "solver/polyhedral/wave_corners.h"
-#include "solver/polyhedral/wave_places.h"
 #include "solver/polyhedral/wave_sides.h"
 
 namespace geotherm {
 namespace {
 
+/// Bits of a coordinate in a Morton number; three of them fill 63.
+constexpr int kMortonBits = 21;
+
 /// Minimum vertices or faces per thread.
 constexpr std::int64_t kMinTableRowsPerThread = 1 << 13;
 
-/// Vertices that faces use, along the curve.
-std::vector<Index> morton_order(const IntrinsicSurface& base,
-                                const std::vector<std::uint64_t>& morton, int threads) {
+/// Spreads the low bits so that two zeros follow each (Morton 1966).
+std::uint64_t spread(std::uint64_t x) {
+  x = (x | x << 32) & 0x001f00000000ffff;
+  x = (x | x << 16) & 0x001f0000ff0000ff;
+  x = (x | x << 8) & 0x100f00f00f00f00f;
+  x = (x | x << 4) & 0x10c30c30c30c30c3;
+  return (x | x << 2) & 0x1249249249249249;
+}
+
+/// Vertices that faces use, along a space-filling curve.
+std::vector<Index> morton_order(const IntrinsicSurface& base, int threads) {
   std::vector<Index> used;
+  Vec3 low = Vec3::Constant(kUnreached), high = -low;
   for (Index v = 0; v < base.vertex_count(); ++v) {
-    if (is_used(base, v)) used.push_back(v);
+    if (static_cast<std::size_t>(v) < base.kept->on_surface.size() && base.kept->on_surface[v] == 0)
+      continue;
+    used.push_back(v);
+    low = low.cwiseMin(base.position(v));
+    high = high.cwiseMax(base.position(v));
   }
-  RawVector<Place> places(used.size());
+  const Vec3 origin = low / 2;  // halves, because the extent may be beyond the doubles' range
+  const double extent = (high / 2 - origin).maxCoeff();
+  const double steps = extent > 0 ? ((1 << kMortonBits) - 1) / extent : 0.0;
+  RawVector<std::pair<std::uint64_t, Index>> codes(used.size());
   constexpr int kMaxPieces = 8;  // merging takes a pass over the vertices for each
   const int pieces =
       piece_count(std::min(threads, kMaxPieces), std::ssize(used), kMinTableRowsPerThread);
   for_pieces(pieces, std::ssize(used), [&](int, std::int64_t begin, std::int64_t end) {
-    for (std::int64_t i = begin; i < end; ++i) places[i] = {morton[used[i]], used[i]};
-    std::sort(places.begin() + begin, places.begin() + end);
+    for (std::int64_t i = begin; i < end; ++i) {
+      const Vec3 at = (base.position(used[i]) / 2 - origin) * steps;
+      std::uint64_t code = 0;
+      for (int c = 0; c < 3; ++c) code |= spread(static_cast<std::uint64_t>(at(c))) << c;
+      codes[i] = {code, used[i]};
+    }
+    std::sort(codes.begin() + begin, codes.begin() + end);
   });
   const auto begin_of = [&](int piece) {
-    return places.begin() + std::ssize(used) * piece / pieces;
+    return codes.begin() + std::ssize(used) * piece / pieces;
   };
   for (int p = 1; p < pieces; ++p) {
-    std::inplace_merge(places.begin(), begin_of(p), begin_of(p + 1));
+    std::inplace_merge(codes.begin(), begin_of(p), begin_of(p + 1));
   }
-  std::ranges::transform(places, used.begin(), [](const Place& place) { return place.second; });
+  std::ranges::transform(codes, used.begin(), [](const auto& pair) { return pair.second; });
   return used;
 }
 
@@ -126,7 +149,7 @@ class FaceWriter {
                  [this](std::int64_t begin, std::int64_t end) {
                    for (std::int64_t i = begin; i < end; ++i) name_edges(static_cast<Index>(i));
                  });
-    join_sides(mesh_, threads_, tables_);
+    join_sides(surface_.base, threads_, tables_);
   }
 
  private:
@@ -199,13 +222,12 @@ std::size_t bytes_of(const Values& values) {
 std::size_t WaveTables::bytes() const {
   return bytes_of(faces) + bytes_of(sides) + bytes_of(more) + bytes_of(rank_of_vertex) +
          bytes_of(vertex_of_rank) + bytes_of(rank_of_face) + bytes_of(intrinsic_face) +
-         bytes_of(corner_start) + bytes_of(corners) + bytes_of(morton);
+         bytes_of(corner_start) + bytes_of(corners);
 }
 
 WaveTables build_wave_tables(const WaveSurface& surface, int threads) {
   WaveTables tables;
-  tables.morton = morton_numbers(surface.base, threads);
-  tables.vertex_of_rank = morton_order(surface.base, tables.morton, threads);
+  tables.vertex_of_rank = morton_order(surface.base, threads);
   tables.rank_of_vertex.assign(static_cast<std::size_t>(surface.base.vertex_count()), kNoIndex);
   for (std::size_t r = 0; r < tables.vertex_of_rank.size(); ++r) {
     tables.rank_of_vertex[tables.vertex_of_rank[r]] = static_cast<Index>(r);
@@ -213,7 +235,7 @@ WaveTables build_wave_tables(const WaveSurface& surface, int threads) {
   FaceWriter(surface, tables, threads).run();
   list_corners(tables);
   mark_fans(tables, threads);
-  mark_touching(tables, threads);
+  mark_touching(tables, threads, surface.base);
   return tables;
 }
 

@@ -4,7 +4,6 @@
 #include <array>
 #include <cstdint>
 #include <span>
-#include <utility>
 #include <vector>
 
 #include "solver/core/memory.h"
@@ -30,17 +29,14 @@ inline constexpr SideCode kNoSideCode = -1;
 inline Index face_of_code(SideCode code) { return code >> 2; }
 inline int corner_of_code(SideCode code) { return code & 3; }
 
-/// By which vertices are put in order: their number along a Morton curve, then in the file.
-using Place = std::pair<std::uint64_t, Index>;
-
 /// A WaveSurface laid out for one pass over memory: vertices in Morton order, faces and edges in
 /// the order in which that meets them, whatever the order of the file; those of a surface that has
-/// moved have the numbers from before. What a wave visits first is told by places alone, so that
-/// both give the same distances. Immutable. An edge has the direction of its first side.
+/// moved have the numbers from before. What a wave visits first is told by where vertices are, so
+/// that both give the same distances. Immutable. An edge has the direction of its first side.
 struct WaveTables {
   RawVector<WaveFace> faces;
-  /// Each edge's first and second side. The second is kNoSideCode at the boundary; below that,
-  /// -2 - i, where more[i] holds a count and then the second and all further sides.
+  /// Each edge's first side and its twin. The second is kNoSideCode at the boundary; where there
+  /// are others that are no twins, -2 - i, and more[i] holds their number and then all of them.
   RawVector<std::array<SideCode, 2>> sides;
   std::vector<SideCode> more;
 
@@ -51,14 +47,11 @@ struct WaveTables {
   std::vector<std::size_t> corner_start;  ///< n + 1
   std::vector<SideCode> corners;  ///< at each vertex, as the code of the side that begins there
 
-  std::vector<std::uint64_t> morton;  ///< V and inserted: numbers along the curve
-
   double mean_side = 0, longest_side = 0;  ///< the mean to eight digits
 
   std::span<const SideCode> corners_at(Index rank) const {
     return {corners.data() + corner_start[rank], corners.data() + corner_start[rank + 1]};
   }
-  Place place(Index vertex) const { return {morton[vertex], vertex}; }
   Index vertex_count() const { return static_cast<Index>(vertex_of_rank.size()); }
   Index edge_count() const { return static_cast<Index>(sides.size()); }
   std::size_t bytes() const;
@@ -72,8 +65,9 @@ WaveTables build_wave_tables(const WaveSurface& surface, int threads = 1);
 bool can_move_tables(const IntrinsicSurface& before, const IntrinsicSurface& now);
 
 /// The same, from the tables of `before`: with other numbers, and the same distances. Precondition:
-/// can_move_tables(). Cost: O(F), less than half of the above.
+/// can_move_tables(). `memory`: tables that nobody needs any more, or none. Cost: O(F), less than a
+/// third of the above.
 WaveTables moved_wave_tables(const WaveTables& earlier, const WaveSurface& before,
-                             const WaveSurface& surface, int threads = 1);
+                             const WaveSurface& surface, int threads = 1, WaveTables memory = {});
 
 }  // namespace geotherm

@@ -5,6 +5,7 @@
 #include <mutex>
 #include <new>
 #include <string>
+#include <utility>
 
 #include "solver/accuracy/check_waves.h"
 #include "solver/core/parallel.h"
@@ -54,6 +55,30 @@ class FrontPool {
   std::vector<std::unique_ptr<WaveFront>> free_;
 };
 
+/// What a method leaves to the next but one on a surface that moves, which the system would else
+/// have to clear page by page.
+struct Leavings {
+  WaveTables tables;
+  std::unique_ptr<WaveFront> front;
+};
+
+/// Those of one method, as long as nobody takes them. For several threads.
+class LeavingsPool {
+ public:
+  Leavings take() {
+    const std::lock_guard lock(mutex_);
+    return std::exchange(kept_, {});
+  }
+  void give(Leavings leavings) {
+    const std::lock_guard lock(mutex_);
+    std::swap(kept_, leavings);
+  }
+
+ private:
+  std::mutex mutex_;
+  Leavings kept_;
+};
+
 }  // namespace
 
 struct WavefrontMethod::State {
@@ -63,16 +88,37 @@ struct WavefrontMethod::State {
   WaveTables tables;
   SetupTiming timing;
   std::unique_ptr<FrontPool> pool;
+  std::shared_ptr<LeavingsPool> leavings;  ///< where the surface has moved
+
+  State() = default;
+  State(const State&) = delete;
+  State& operator=(const State&) = delete;
+  ~State() {
+    if (leavings) leavings->give({std::move(tables), pool->take_spare(false)});
+  }
 
   MethodKind kind() const {
     return samples == Samples::kMidpoint ? MethodKind::kWavefront : MethodKind::kWavefrontFine;
   }
+  int samples_on_edge() const { return samples == Samples::kMidpoint ? 1 : 3; }
+  void move_from(const State& before, int threads);
   Result<DistanceResult> solve(const SourceSet& sources, const QueryOptions& query,
                                const Progress& progress) const;
   WaveReach wave_reach(const Reach& reach, std::vector<Index>& ranks) const;
   void copy_out(const WaveFront& front, bool labels, DistanceResult& result) const;
   void copy_reached(WaveFront& front, const QueryOptions& query, DistanceResult& result) const;
 };
+
+/// Makes the tables from those of a method with as many samples, whose surface they fit.
+void WavefrontMethod::State::move_from(const State& before, int threads) {
+  const auto shared = before.leavings ? before.leavings : std::make_shared<LeavingsPool>();
+  Leavings spare = shared->take();
+  tables =
+      moved_wave_tables(before.tables, *before.surface, *surface, threads, std::move(spare.tables));
+  pool = std::make_unique<FrontPool>(tables, samples_on_edge());
+  if (spare.front) pool->give(std::make_unique<WaveFront>(tables, std::move(*spare.front)));
+  leavings = shared;
+}
 
 Result<DistanceResult> WavefrontMethod::State::solve(const SourceSet& sources,
                                                      const QueryOptions& query,
@@ -207,16 +253,12 @@ Result<std::shared_ptr<const WavefrontMethod>> WavefrontMethod::build(
     const int worth = threads_worth_starting(thread_count(threads), kSetUpNanoseconds * faces);
     const ThreadCrew crew(worth);
     const State* const before = earlier != nullptr ? earlier->state_.get() : nullptr;
-    const bool moves =
-        before != nullptr && can_move_tables(before->surface->base, state->surface->base);
-    state->tables =
-        moves ? moved_wave_tables(before->tables, *before->surface, *state->surface, worth)
-              : build_wave_tables(*state->surface, worth);
-    state->pool = std::make_unique<FrontPool>(state->tables, samples == Samples::kMidpoint ? 1 : 3);
-    if (moves && before->samples == samples) {
-      if (auto spare = before->pool->take_spare(false)) {
-        state->pool->give(std::make_unique<WaveFront>(state->tables, std::move(*spare)));
-      }
+    if (before != nullptr && before->samples == samples &&
+        can_move_tables(before->surface->base, state->surface->base)) {
+      state->move_from(*before, worth);
+    } else {
+      state->tables = build_wave_tables(*state->surface, worth);
+      state->pool = std::make_unique<FrontPool>(state->tables, state->samples_on_edge());
     }
     if (!report(progress, "operators", 1.0)) return cancelled_error();
     state->timing.operators = state->timing.setup = watch.milliseconds();

@@ -99,10 +99,11 @@ Draft with_fins() {
   return draft;
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    Shapes, MovedWaves,
-    testing::Values([] { return sphere(3); }, [] { return jittered_plane(20, 0.3, 4); }, with_fins,
-                    [] { return graded_book(6); }, [] { return spiky_sphere(); }));
+INSTANTIATE_TEST_SUITE_P(Shapes, MovedWaves,
+                         testing::Values([] { return sphere(3); },
+                                         [] { return jittered_plane(20, 0.3, 4); }, with_fins,
+                                         [] { return graded_book(6); },
+                                         [] { return spiky_sphere(); }));
 
 }  // namespace
 }  // namespace geotherm::test
