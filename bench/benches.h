@@ -7,6 +7,7 @@
 
 #include "bench/bench_mesh.h"
 #include "bench/measure.h"
+#include "geotherm/distance_method.h"
 #include "geotherm/mesh.h"
 
 // What the benchmark measures: reading, solving, surfaces that move, the viewer.
