@@ -61,7 +61,9 @@ class ComingFrame {
   Result<ReadyMethod> set_up(const std::shared_ptr<const TriangleMesh>& mesh,
                              const ReadyMethod& earlier, const std::string& name) const {
     const Stopwatch watch;
-    auto made = build_method_moved(mesh, earlier.options, earlier.method.get(),
+    MethodOptions options = earlier.options;
+    options.threads = thread_count(options.threads) - 1;  // one is at the query
+    auto made = build_method_moved(mesh, options, earlier.method.get(),
                                    [this](std::string_view, double) { return !dropped_; });
     if (!made) return about_model(name, made.error());
     const SetupTiming timing = (*made)->timing();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Tables of a surface that has moved. Its flips leave everything in its place but the faces that
-// they, or those from before, have changed: only these find their corners and edges anew.
+// they, or those from before, have made others: only these find their corners and edges anew.
 #include <algorithm>
 #include <utility>
 #include <vector>
@@ -35,7 +35,9 @@ class FaceCarrier {
         changed_(earlier.faces.size(), 0) {
     for (const auto* edits : {&before.base.edits, &surface.base.edits}) {
       for (const Edit& edit : *edits) {
-        for (const Index f : {edit.f, edit.g}) changed_[earlier.rank_of_face[f]] = 1;
+        for (const Index f : {edit.f, edit.g}) {
+          if (differs(f)) changed_[rank(f)] = 1;
+        }
       }
     }
   }
@@ -50,6 +52,14 @@ class FaceCarrier {
   }
 
  private:
+  /// In its corners or its neighbours: most flips are those from before.
+  bool differs(Index f) const {
+    if (old_.faces[f] != mesh_.faces[f]) return true;
+    for (Side side = 3 * f; side < 3 * f + 3; ++side) {
+      if (old_.twin[side] != mesh_.twin[side]) return true;
+    }
+    return false;
+  }
   bool is_changed(Index face) const { return changed_[face] != 0; }
   Index rank(Index face) const { return earlier_.rank_of_face[face]; }
 
