@@ -92,7 +92,8 @@ TEST(NearField, IsNearExactBesideSourcesInThePlane) {
   classic.variant = Variant::kClassic;
   const auto published = solve(mesh, {source}, classic).distances;
   // A disc of as many vertices in a square of 61 x 61: half of its radius is sure.
-  const double sure = std::sqrt(near_count(1, mesh->face_count()) / (60 * 60 * M_PI)) / 2;
+  const double share = static_cast<double>(near_count(1, mesh->face_count())) / (60 * 60);
+  const double sure = std::sqrt(share / M_PI) / 2;
   int count = 0;
   double off = 0;
   for (Index v = 0; v < mesh->vertex_count(); ++v) {
