@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "solver/core/parallel.h"
-#include "solver/polyhedral/wave_places.h"
+#include "solver/polyhedral/wave_order.h"
 
 namespace geotherm {
 namespace {
@@ -49,7 +49,7 @@ void set_bits(std::uint16_t WaveFace::*bits, unsigned first, std::span<const Sid
 auto face_place(const IntrinsicSurface& base, const WaveTables& tables, SideCode corner) {
   const WaveFace& face = tables.faces[face_of_code(corner)];
   const int k = corner_of_code(corner);
-  const auto place = [&](int i) { return place_of(base, tables.vertex_of_rank[face.vertex[i]]); };
+  const auto place = [&](int i) { return order_of(base, tables.vertex_of_rank[face.vertex[i]]); };
   return std::tuple(std::minmax({place(next_corner(k)), place(previous_corner(k))}),
                     tables.intrinsic_face[face_of_code(corner)], k);
 }

@@ -232,18 +232,18 @@ void WaveFront::seed(const WaveSurface& surface, const SourceSeeds& seeds) {
   }
   for (const auto& piece : seeds.pieces) seed_face(surface, piece);
   for (auto& [key, edge] : keys_) key = key_of(edge);
-  std::ranges::sort(keys_, {}, [&](const auto& pair) { return places_of(surface, pair.second); });
+  std::ranges::sort(keys_, {}, [&](const auto& pair) { return orders_of(surface, pair.second); });
   ring_.add_seeds(keys_);
 }
 
 /// Of an edge's ends, and of the corner beyond it in its first face: an order of edges that does
 /// not hang on their numbers.
-std::array<Place, 3> WaveFront::places_of(const WaveSurface& surface, Index edge) const {
+std::array<WaveOrder, 3> WaveFront::orders_of(const WaveSurface& surface, Index edge) const {
   const SideCode side = tables_.sides[edge][0];
   const WaveFace& face = tables_.faces[face_of_code(side)];
   const int k = corner_of_code(side);
   const auto place = [&](int i) {
-    return place_of(surface.base, tables_.vertex_of_rank[face.vertex[i]]);
+    return order_of(surface.base, tables_.vertex_of_rank[face.vertex[i]]);
   };
   return {place(k), place(next_corner(k)), place(previous_corner(k))};
 }

@@ -10,7 +10,7 @@
 #include "geotherm/progress.h"
 #include "solver/polyhedral/bucket_ring.h"
 #include "solver/polyhedral/wave_kernels.h"
-#include "solver/polyhedral/wave_places.h"
+#include "solver/polyhedral/wave_order.h"
 #include "solver/polyhedral/wave_tables.h"
 
 namespace geotherm {
@@ -98,7 +98,7 @@ class WaveFront {
   void seed_face(const WaveSurface& surface, const SourceSeeds::Piece& piece);
   void lower(double& value, Index* label, double candidate, Index group);
   double key_of(Index edge) const;
-  std::array<Place, 3> places_of(const WaveSurface& surface, Index edge) const;
+  std::array<WaveOrder, 3> orders_of(const WaveSurface& surface, Index edge) const;
   WavePass pass();
 
   const WaveTables& tables_;

@@ -10,7 +10,7 @@
 
 #include "solver/core/parallel.h"
 #include "solver/core/sorting.h"
-#include "solver/polyhedral/wave_places.h"
+#include "solver/polyhedral/wave_order.h"
 
 namespace geotherm {
 namespace {
@@ -77,8 +77,8 @@ class SideJoiner {
   Index edge_of(SideCode code) const {
     return tables_.faces[face_of_code(code)].edge[corner_of_code(code)];
   }
-  Place start(Side side) const {
-    return place_of(base_, mesh_.faces[face_of(side)][corner_of(side)]);
+  WaveOrder start(Side side) const {
+    return order_of(base_, mesh_.faces[face_of(side)][corner_of(side)]);
   }
   Index beyond(SideCode code) const {
     return tables_.faces[face_of_code(code)].vertex[previous_corner(corner_of_code(code))];
@@ -90,8 +90,8 @@ class SideJoiner {
     const Index here = beyond(side), there = beyond(other);
     if (x_[here] != x_[there]) return x_[here] < x_[there];
     if (here != there) {
-      return place_of(base_, tables_.vertex_of_rank[here]) <
-             place_of(base_, tables_.vertex_of_rank[there]);
+      return order_of(base_, tables_.vertex_of_rank[here]) <
+             order_of(base_, tables_.vertex_of_rank[there]);
     }
     const Side s = side_of(side), t = side_of(other);
     return face_of(s) != face_of(t) ? s < t : place_in_face(s) < place_in_face(t);

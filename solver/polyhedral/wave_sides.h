@@ -21,8 +21,8 @@ void set_lengths(const std::array<double, 3>& lengths, WaveFace& face, SideLengt
 /// Sets what the tables say of the lengths of all sides.
 void sum_up(std::span<const SideLengths> blocks, WaveTables& tables);
 
-/// Lists the sides of each edge, that of the face whose other corner comes first (Place) before the
-/// others, and marks in WaveFace::reversed those that run against the first. Precondition:
+/// Lists the sides of each edge, that of the face whose other corner comes first (WaveOrder) before
+/// the others, and marks in WaveFace::reversed those that run against the first. Precondition:
 /// `reversed` says nothing of sides. Cost: a pass over the faces.
 void join_sides(const IntrinsicSurface& base, int threads, WaveTables& tables);
 
