@@ -232,7 +232,9 @@ void WaveFront::seed(const WaveSurface& surface, const SourceSeeds& seeds) {
   }
   for (const auto& piece : seeds.pieces) seed_face(surface, piece);
   for (auto& [key, edge] : keys_) key = key_of(edge);
-  std::ranges::sort(keys_, {}, [&](const auto& pair) { return orders_of(surface, pair.second); });
+  std::ranges::sort(keys_, {}, [&](const auto& pair) {
+    return std::pair(pair.first, orders_of(surface, pair.second));
+  });
   ring_.add_seeds(keys_);
 }
 

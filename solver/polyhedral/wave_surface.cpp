@@ -2,8 +2,10 @@
 #include "solver/polyhedral/wave_surface.h"
 
 #include <algorithm>
+#include <array>
 #include <new>
 #include <optional>
+#include <span>
 #include <string>
 #include <unordered_map>
 #include <utility>
@@ -180,7 +182,11 @@ class Seeder {
 
   void add_on_side(const FacePiece& piece, Side side) {
     const int k = corner_of(side);
-    for (const Side other : surface_.sides_of(surface_.edge_of_side(side))) {
+    const Side twin = surface_.base.intrinsic.twin[side];
+    const std::array both = {std::min(side, twin), std::max(side, twin)};
+    // Edges are listed when they are first asked for, on a surface that has moved by a query.
+    for (const Side other : twin != kNoSide ? std::span<const Side>(both)
+                                            : surface_.sides_of(surface_.edge_of_side(side))) {
       const bool same_way = other == side || runs_as(side, other);
       const int first = same_way ? corner_of(other) : next_corner(corner_of(other));
       const int second = same_way ? next_corner(corner_of(other)) : corner_of(other);

@@ -101,7 +101,7 @@ struct WavefrontMethod::State {
     return samples == Samples::kMidpoint ? MethodKind::kWavefront : MethodKind::kWavefrontFine;
   }
   int samples_on_edge() const { return samples == Samples::kMidpoint ? 1 : 3; }
-  void move_from(const State& before, int threads);
+  void move_from(const State& before, int workers);
   Result<DistanceResult> solve(const SourceSet& sources, const QueryOptions& query,
                                const Progress& progress) const;
   WaveReach wave_reach(const Reach& reach, std::vector<Index>& ranks) const;
@@ -110,11 +110,11 @@ struct WavefrontMethod::State {
 };
 
 /// Makes the tables from those of a method with as many samples, whose surface they fit.
-void WavefrontMethod::State::move_from(const State& before, int threads) {
+void WavefrontMethod::State::move_from(const State& before, int workers) {
   const auto shared = before.leavings ? before.leavings : std::make_shared<LeavingsPool>();
   Leavings spare = shared->take();
   tables =
-      moved_wave_tables(before.tables, *before.surface, *surface, threads, std::move(spare.tables));
+      moved_wave_tables(before.tables, *before.surface, *surface, workers, std::move(spare.tables));
   pool = std::make_unique<FrontPool>(tables, samples_on_edge());
   if (spare.front) pool->give(std::make_unique<WaveFront>(tables, std::move(*spare.front)));
   leavings = shared;
