@@ -220,16 +220,25 @@ void check_straight_lines(std::span<const Vec3> positions, const StraightLine& s
   const auto is_more = [](double line, double distance) {
     return line > distance + kRounding * (1 + line);
   };
-  // One source, as most are: without branches that a processor would guess wrong.
+  // One source, as most are: by some vertices at once without branches, few of which are below.
+  constexpr std::size_t kAtOnce = 8;
   const auto raise_to_point = [&](std::int64_t begin, std::int64_t end) {
     LineFigures sum;
-    for (auto v = static_cast<std::size_t>(begin); v < static_cast<std::size_t>(end); ++v) {
-      const double given = result.distances[v], distance = given * to_edges;
-      const double line = straight.length_to_point(straight.place(positions[v]));
-      sum.reached += distance < kUnreached ? 1 : 0;
-      const bool known = line < kUnreached;  // not beyond the range of doubles
-      result.distances[v] = (known & is_more(line, distance)) ? line * from_edges : given;
-      if (known && line > (distance + tolerance.line_edges) * per_share) {
+    const auto last = static_cast<std::size_t>(end);
+    for (auto first = static_cast<std::size_t>(begin); first < last; first += kAtOnce) {
+      const std::size_t next = std::min(first + kAtOnce, last);
+      bool some = false;
+      for (std::size_t v = first; v < next; ++v) {
+        const double distance = result.distances[v] * to_edges;
+        sum.reached += distance < kUnreached ? 1 : 0;
+        some |= straight.square_to_point(straight.place(positions[v])) > distance * distance;
+      }
+      for (std::size_t v = first; v < (some ? next : first); ++v) {
+        const double distance = result.distances[v] * to_edges;
+        const double line = std::sqrt(straight.square_to_point(straight.place(positions[v])));
+        if (!(line < kUnreached)) continue;  // beyond the range of doubles
+        if (is_more(line, distance)) result.distances[v] = line * from_edges;
+        if (!(line > (distance + tolerance.line_edges) * per_share)) continue;
         ++sum.below;
         sum.most = std::max(sum.most, 1 - distance / line);
       }

@@ -43,11 +43,13 @@ class StraightLine {
     if (left >= 0 && square <= left * left) return 0;
     return find_within(place, reach, hint) ? 0 : length(place);
   }
-  /// Whether there is one source, and that is a point.
-  bool is_point() const { return pieces_.size() == 1 && pieces_[0].inverse_square == 0; }
-  /// The straight line to the first source where that is a point.
-  double length_to_point(const Vec3& place) const {
-    return (place - pieces_[0].from).norm() + pieces_[0].offset;
+  /// Whether there is one source, and that is a point without an offset.
+  bool is_point() const {
+    return pieces_.size() == 1 && pieces_[0].inverse_square == 0 && pieces_[0].offset == 0;
+  }
+  /// The square of the straight line to that.
+  double square_to_point(const Vec3& place) const {
+    return (place - pieces_[0].from).squaredNorm();
   }
   /// Cost: O(log K) on ordinary sources.
   double length(const Vec3& place) const;
