@@ -42,6 +42,14 @@ Result<void> check_sizes(const CellComplex& cells) {
   if (!cells.numbers.empty() && cells.numbers.size() != count) {
     return bad_size("numbers of cells", cells.numbers.size(), count);
   }
+  if (!cells.virtual_vertices.empty()) {
+    if (cells.virtual_vertices.size() != count) {
+      return bad_size("virtual vertices", cells.virtual_vertices.size(), count);
+    }
+    if (cells.positions.empty() || cells.numbers.empty() || cells.dimension != 2) {
+      return bad_cells("virtual vertices are of numbered cells in two dimensions with positions");
+    }
+  }
   if (!std::ranges::is_sorted(cells.numbers)) return bad_cells("the numbers do not ascend");
   if (!cells.on_boundary.empty() && cells.on_boundary.size() != vertices) {
     return bad_size("boundary flags", cells.on_boundary.size(), vertices);

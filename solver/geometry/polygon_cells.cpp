@@ -20,10 +20,6 @@ namespace {
 /// A face of k corners has 2 k^2 numbers, and takes k^3 steps.
 constexpr std::size_t kMaxCorners = 256;
 
-/// What u is linear over, in mean distances of two corners of a face. Chosen on planes, a sphere
-/// and a torus of faces that are convex or an L (docs/domains.md).
-constexpr double kWidth = 1.2;
-
 /// Height of a triangle at the virtual vertex, in its side, at least: in a concave face that vertex
 /// may lie beside the line of a side, and would have the value that the side is extrapolated to.
 constexpr double kLeastHeight = 0.1;
@@ -68,6 +64,7 @@ Vec3 virtual_vertex(std::span<const Vec3> corners) {
 /// value is the mean of the corners' that makes it harmonic on these triangles.
 struct PolygonElement {
   double width = 0;                         ///< mean distance between two corners
+  Vec3 apex = Vec3::Zero();                 ///< the virtual vertex
   std::vector<double> areas;                ///< of each triangle; none: the face has no area
   std::vector<Eigen::Matrix2Xd> gradients;  ///< of each triangle: 2 x k
 };
@@ -91,6 +88,7 @@ PolygonElement polygon_element(const std::vector<Vec3>& positions, std::span<con
   // A triangle is one cell: its third corner in place of a virtual vertex.
   const bool whole = k == 3;
   const Vec3 apex = whole ? at[2] : virtual_vertex(at);
+  out.apex = positions[face[0]] + out.width * apex;
   std::vector<FanTriangle> fan;
   Eigen::VectorXd pull = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(k));
   for (std::size_t i = 0; i < (whole ? 1 : k); ++i) {
@@ -140,6 +138,7 @@ Result<CellComplex> cells_of(const PolygonMesh& mesh) try {
   cells.vertices = static_cast<Index>(mesh.positions.size());
   cells.dimension = 2;
   cells.positions = mesh.positions;
+  cells.lengths_are_straight = true;
   cells.start.push_back(0);
   for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
     if (mesh.positions[v].allFinite()) continue;
@@ -187,7 +186,8 @@ Result<CellComplex> cells_of(const PolygonMesh& mesh) try {
       cells.gradients.insert(cells.gradients.end(), gradients.begin(), gradients.end());
       cells.measures.push_back(element.areas[t]);
       cells.numbers.push_back(static_cast<Index>(f));
-      cells.widths.push_back(kWidth * element.width);
+      cells.widths.push_back(element.width);
+      cells.virtual_vertices.push_back(element.apex);
     }
   }
   if (cells.measures.empty()) {

@@ -34,8 +34,9 @@ std::vector<ComponentSize> measure_cells(const CellMesh& mesh) {
   return sizes;
 }
 
-/// Up to this thickness in mean widths t is the square of the mean width.
-constexpr double kThickness = 7.5;
+/// Of this thickness in mean widths t is the square of the mean width, and at least this share of
+/// it in thinner bodies: in irregular ones distances would become too short.
+constexpr double kThickness = 7.5, kLeastTime = 0.7;
 /// Below this share of the cube root of the volume a thickness is that of a long or thin body.
 constexpr double kLong = 0.45;
 
@@ -72,7 +73,7 @@ void follow_thickness(CellDomain& domain) {
     double thickness = 3 * volume[c] / std::max(area[c], of_ball);
     thickness *= std::min(1.0, thickness / (kLong * side));
     const double in_widths = thickness / domain.unit / size.mean_edge;
-    size.grading = std::max(1.0, std::pow(in_widths / kThickness, 2.0 / 3));
+    size.grading = std::max(kLeastTime, std::pow(in_widths / kThickness, 2.0 / 3));
   }
 }
 
@@ -276,6 +277,10 @@ std::unique_ptr<const UnitField> CellDomain::unit_field(const HeatField& heat,
                                                         const PerComponent& t,
                                                         const Workspace& work) const {
   return std::make_unique<const CellField>(*this, heat, t, work);
+}
+
+Result<std::vector<NearVertex>> CellDomain::near_field(const SourceAnchors& anchors) const {
+  return near_polygons(*this, anchors);
 }
 
 void CellDomain::check_straight_lines(const SourceSet& sources, BelowLine below, int threads,

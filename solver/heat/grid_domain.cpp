@@ -200,19 +200,23 @@ void GridDomain::check_straight_lines(const SourceSet& sources, BelowLine below,
     return;
   }
   const Grid& grid = lattice->grid();
+  const auto place_of = [&grid](Index sample) {  // from the origin, which may be far away
+    const auto at = grid.place(sample);
+    return Vec3(at[0] * grid.spacing[0], at[1] * grid.spacing[1], at[2] * grid.spacing[2]);
+  };
   std::vector<LineSource> lines;
   for (const SurfacePoint& point : sources.points) {
-    const Vec3 at = grid.position(point.vertex);
+    const Vec3 at = place_of(point.vertex);
     lines.push_back({at, at, 0.0});
   }
   for (const CellPoint& point : sources.cell_points) {
     const GridCell cell = lattice->cell(point.cell);
     Vec3 at = Vec3::Zero();
-    for (int k = 0; k < cell.count; ++k) at += point.weights[k] * grid.position(cell.corners[k]);
+    for (int k = 0; k < cell.count; ++k) at += point.weights[k] * place_of(cell.corners[k]);
     lines.push_back({at, at, 0.0});
   }
   std::vector<Vec3> positions(static_cast<std::size_t>(input_vertices));
-  for (Index v = 0; v < input_vertices; ++v) positions[v] = grid.position(v);
+  for (Index v = 0; v < input_vertices; ++v) positions[v] = place_of(v);
   geotherm::check_straight_lines(positions, StraightLine(lines, unit), unit, 1,
                                  bound_tolerance(MethodKind::kHeat), below, threads, result);
 }

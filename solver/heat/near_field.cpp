@@ -271,9 +271,10 @@ double least_distance(const WaveFront& wave, const WaveTables& tables,
 }
 
 /// By a march over the triangulation, where no vertices were inserted; nothing around curves, whose
-/// fronts are no circles.
+/// fronts are no circles, nor over faces that are not Delaunay.
 void march_in_component(const Surface& surface, const SourceAnchors& anchors, Index component,
                         std::vector<NearVertex>& out) {
+  if (!surface.is_delaunay) return;
   const OperatorMesh& mesh = *surface.operators;
   for (const auto& piece : anchors.pieces) {
     if (piece.from != piece.to && mesh.components.of[mesh.faces[piece.face][0]] == component)
@@ -284,10 +285,11 @@ void march_in_component(const Surface& surface, const SourceAnchors& anchors, In
     if (mesh.components.of[anchor.row] == component) seeds.push_back({anchor.row, anchor.offset});
   }
   const auto found = march_nearest(mesh.corners, mesh.faces, mesh.layout, seeds,
-                                   near_count(seeds.size(), surface.components[component].cells));
+                                   near_count(anchors.source_count(mesh.components, component),
+                                              surface.components[component].cells));
   for (const NearDistance& near : found) {
     const double share = share_of_heat(near.distance, found.back().distance);
-    if (share < 1) out.push_back({near.vertex, near.distance, share});
+    if (share < 1) out.push_back({static_cast<Index>(near.vertex), near.distance, share});
   }
 }
 

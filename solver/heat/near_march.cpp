@@ -22,6 +22,9 @@ constexpr double kNearShare = 0.07;
 /// Of more sources each has a small neighbourhood, and all of them cost as much as heat.
 constexpr std::size_t kMaxMarchSources = 64;
 
+/// A disc of so many vertices of an even mesh is guessed this much larger.
+constexpr double kRoom = 1.5;
+
 /// The straight line may pass beside the side by this share of it, at a corner that both sides of
 /// it meet.
 constexpr double kTolerance = 1e-9;
@@ -102,6 +105,30 @@ double straight_through(const Place& a, const Place& b, const Place& target, dou
   return passes ? length_of(along - source, depth + height) : kUnreached;
 }
 
+std::vector<NearDistance> march_over(std::span<const NearFace> near,
+                                     std::span<const NearDistance> seeds, std::size_t count) {
+  std::vector<std::int64_t> numbers;
+  for (const NearFace& face : near)
+    numbers.insert(numbers.end(), face.corners.begin(), face.corners.end());
+  std::ranges::sort(numbers);
+  numbers.erase(std::ranges::unique(numbers).begin(), numbers.end());
+  const auto here = [&](std::int64_t number) {
+    return static_cast<Index>(std::ranges::lower_bound(numbers, number) - numbers.begin());
+  };
+  std::vector<Face> faces;
+  std::vector<FaceLayout> layout;
+  for (const NearFace& face : near) {
+    faces.push_back({here(face.corners[0]), here(face.corners[1]), here(face.corners[2])});
+    layout.push_back(face.layout);
+  }
+  std::vector<NearDistance> from;
+  for (const NearDistance& seed : seeds) from.push_back({here(seed.vertex), seed.distance});
+  const CornerTable corners(static_cast<Index>(numbers.size()), faces);
+  auto found = march_nearest(corners, faces, layout, from, count);
+  for (NearDistance& each : found) each.vertex = numbers[static_cast<std::size_t>(each.vertex)];
+  return found;
+}
+
 }  // namespace
 
 std::size_t near_count(std::size_t sources, double faces) {
@@ -125,7 +152,8 @@ std::vector<NearDistance> march_nearest(const CornerTable& corners, std::span<co
     waiting.emplace(distance, entry.vertex);
   };
   reached.make_room(seeds.size());
-  for (const NearDistance& seed : seeds) lower(reached.at(seed.vertex), seed.distance);
+  for (const NearDistance& seed : seeds)
+    lower(reached.at(static_cast<Index>(seed.vertex)), seed.distance);
   while (!waiting.empty() && out.size() < count) {
     const auto [distance, vertex] = waiting.top();
     waiting.pop();
@@ -155,7 +183,24 @@ std::vector<NearDistance> march_nearest(const CornerTable& corners, std::span<co
   return out;
 }
 
+std::vector<NearDistance> march_around(std::span<const NearDistance> seeds, std::size_t count,
+                                       double mean_edge,
+                                       const std::function<NearFaces(double reach)>& within) {
+  if (count == 0) return {};
+  const auto each = static_cast<double>(count) / static_cast<double>(seeds.size());
+  double reach = kRoom * mean_edge * std::sqrt(each / M_PI);
+  for (;;) {
+    const NearFaces near = within(reach);
+    std::vector<NearDistance> found = march_over(near.faces, seeds, count);
+    const double limit = found.back().distance;
+    const bool enough = found.size() >= count;
+    if ((enough && limit <= reach) || near.are_all) return found;
+    reach = enough ? limit : 2 * reach;
+  }
+}
+
 double share_of_heat(double distance, double limit) {
+  if (!(limit > 0)) return 1;
   return std::clamp((distance / limit - kHeatless) / (1 - kHeatless), 0.0, 1.0);
 }
 

@@ -271,6 +271,12 @@ std::vector<Index> SourceAnchors::rows() const {
   return out;
 }
 
+std::size_t SourceAnchors::source_count(const Components& parts, Index component) const {
+  double heat = 0;  // 1 of each source
+  for (const Anchor& anchor : anchors) heat += parts.of[anchor.row] == component ? anchor.heat : 0;
+  return static_cast<std::size_t>(std::max(std::lround(heat), 1L));
+}
+
 SourceAnchors AnchorMap::finish(const Components& parts) const {
   SourceAnchors out;
   std::set<Index> components;

@@ -45,6 +45,8 @@ struct SourceAnchors {
   std::vector<Index> components;       ///< that hold a source, ascending
 
   std::vector<Index> rows() const;
+  /// How many sources a component holds; those of curves count as the heat that they have.
+  std::size_t source_count(const Components& parts, Index component) const;
 };
 
 /// Gathers the anchors of vertices and points of cells, by rows.

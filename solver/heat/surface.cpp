@@ -183,6 +183,8 @@ Result<std::shared_ptr<const Surface>> build_surface(std::shared_ptr<const Trian
   static_cast<IntrinsicSurface&>(*out) = std::move(*built);
   out->laplacian = kind_of(*out);
   out->asked = laplacian;
+  out->is_delaunay =
+      flip_rule(laplacian) != FlipRule::kNever || count_non_delaunay(out->intrinsic, threads) == 0;
   out->backend = &backend;
   out->unit = out->intrinsic.unit;
   out->input_vertices = out->mesh->vertex_count();

@@ -27,6 +27,7 @@ struct KeptOrder {
 struct Surface final : IntrinsicSurface, Domain {
   LaplacianKind laplacian = LaplacianKind::kCotan;
   LaplacianKind asked = LaplacianKind::kAuto;   ///< what was asked for; `laplacian` came of it
+  bool is_delaunay = true;                      ///< false: edges that ask for a flip were kept
   const Backend* backend = nullptr;             ///< that analysed it
   std::shared_ptr<const KeptOrder> kept_order;  ///< null where the analysis is fresh
   std::shared_ptr<const OperatorMesh> operators;

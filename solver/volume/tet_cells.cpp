@@ -82,6 +82,7 @@ Result<CellComplex> cells_of(const TetMesh& mesh) try {
   cells.vertices = mesh.vertex_count();
   cells.dimension = 3;
   cells.positions.assign(mesh.positions().begin(), mesh.positions().end());
+  cells.lengths_are_straight = true;
   cells.start.push_back(0);
   const auto positions = mesh.positions();
   std::vector<double> heights;

@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "geotherm/build_method.h"
+#include "tests/support/cells.h"
 #include "tests/support/mesh_zoo.h"
 #include "tests/support/solve.h"
 
@@ -107,6 +108,25 @@ TEST(NearField, IsNearExactBesideSourcesInThePlane) {
   EXPECT_GT(off, kMissed * sure) << "the variant classic is the method as published";
 }
 
+TEST(NearField, CountsAPointInAFaceAsOneSource) {
+  const auto mesh = finish(jittered_plane(80, 0.2, 3));
+  SourceSet points;
+  for (Index i = 0; i < 30; ++i) {
+    points.points.push_back(SurfacePoint::in_face(400 * i + 7, {0.3, 0.3, 0.4}));
+  }
+  const auto distances = solve(method_of(mesh), points).distances;
+  // Beside each its line is the answer: as many corners as would be too many sources have it.
+  for (const SurfacePoint& point : points.points) {
+    const Face& corners = mesh->faces()[point.face];
+    Vec3 place = Vec3::Zero();
+    for (int k = 0; k < 3; ++k) place += point.weights[k] * mesh->positions()[corners[k]];
+    for (const Index v : corners) {
+      const double line = (mesh->positions()[v] - place).norm();
+      EXPECT_NEAR(distances[v], line, kUnfolded + kMissed * line) << "vertex " << v;
+    }
+  }
+}
+
 TEST(NearField, IsLeftOutAroundCurves) {
   const auto mesh = finish(plane_grid(40, 40, 1, 1));
   SourceSet curve;
@@ -133,6 +153,19 @@ TEST(StraightLines, NoAnswerIsBelowThem) {
       EXPECT_GE(distances[v], line * (1 - kUnfolded)) << "vertex " << v;
     }
   }
+}
+
+TEST(StraightLines, DoNotCountWhereLengthsAreNotTheirs) {
+  // A ring that is drawn as a line.
+  Graph ring{100, {}};
+  for (Index v = 0; v < 100; ++v) ring.edges.push_back({v, (v + 1) % 100, 1.0});
+  auto cells = cells_of(ring);
+  ASSERT_TRUE(cells);
+  for (Index v = 0; v < 100; ++v) cells->positions.emplace_back(v, 0, 0);
+  const auto result = solve_cells(shared(std::move(cells)), SourceSet::of_vertices({0}));
+  EXPECT_NEAR(result.distances[99], 1, 0.1);
+  EXPECT_NEAR(result.distances[75], 25, 1);
+  EXPECT_EQ(result.quality.below_straight_line, 0);
 }
 
 }  // namespace

@@ -155,10 +155,8 @@ class Polygons : public testing::TestWithParam<PolygonCase> {};
 TEST_P(Polygons, HaveErrorsLikeThoseOfTheirTriangles) {
   const PolygonMesh polygons = GetParam().mesh();
   const auto triangles = std::make_shared<const TriangleMesh>(*triangulated(polygons));
-  HeatOptions options;
-  options.variant = Variant::kClassic;  // operators alone: triangles have near fields, too
-  const auto as_polygons = HeatMethod::build(shared(cells_of(polygons)), options);
-  const auto as_triangles = HeatMethod::build(triangles, options);
+  const auto as_polygons = HeatMethod::build(shared(cells_of(polygons)));
+  const auto as_triangles = HeatMethod::build(triangles);
   MethodOptions near_exact;
   near_exact.method = MethodKind::kWavefront;
   const auto wavefront = build_method(triangles, near_exact);
@@ -176,6 +174,29 @@ TEST_P(Polygons, HaveErrorsLikeThoseOfTheirTriangles) {
     add(as_triangles->solve(sources)->distances, of_triangles);
   }
   EXPECT_LE(of_polygons, GetParam().most * of_triangles);
+}
+
+TEST(Polygons, AreNearExactBesideSources) {
+  // Exact in the plane, whose triangles at virtual vertices are not obtuse, from corners and from
+  // within faces.
+  const auto cells = shared(cells_of(quads(40, 0)));
+  SourceSet sources = SourceSet::of_vertices({41 * 20 + 20});
+  sources.cell_points.push_back({40 * 8 + 9, {0.1, 0.2, 0.4, 0.3}});
+  const auto& corners = cells->corners_of(4 * (40 * 8 + 9));
+  Vec3 inside = Vec3::Zero();
+  for (std::size_t k = 0; k < 4; ++k) {
+    inside += sources.cell_points[0].weights[k] * cells->positions[corners[k]];
+  }
+  const auto distances = solve_cells(cells, sources).distances;
+  int count = 0;
+  for (std::size_t v = 0; v < distances.size(); ++v) {
+    const double line = std::min((cells->positions[v] - cells->positions[41 * 20 + 20]).norm(),
+                                 (cells->positions[v] - inside).norm());
+    if (line > 1.5 / 40) continue;
+    ++count;
+    EXPECT_NEAR(distances[v], line, 1e-12);
+  }
+  EXPECT_GT(count, 12);
 }
 
 INSTANTIATE_TEST_SUITE_P(Shapes, Polygons,
@@ -202,6 +223,18 @@ TEST(Domains, QuadsThatAreNotPlanarKeepTheirDistances) {
   const Index middle = cells->vertices / 2;
   const auto result = solve_cells(cells, SourceSet::of_vertices({middle}));
   EXPECT_LE(straight_error(*cells, result.distances, cells->positions[middle]), 0.02);
+}
+
+TEST(Domains, VirtualVerticesThatDoNotFitAreOneLine) {
+  const CellComplex whole = *cells_of(quads(4, 0));
+  CellComplex few = whole, unnumbered = whole;
+  few.virtual_vertices.pop_back();
+  unnumbered.numbers.clear();
+  for (const CellComplex& cells : {few, unnumbered}) {
+    const auto valid = check_cells(cells);
+    ASSERT_FALSE(valid);
+    EXPECT_NE(valid.error().message.find("virtual vertices"), std::string::npos);
+  }
 }
 
 TEST(Domains, FacesWithoutAreaAreLeftOutAndSaid) {

@@ -47,9 +47,9 @@ Draft book(Index pages, Index n) {
 }
 
 TEST(PagesOfABook, AreAsFarApartAsInTheUnfoldedPlane) {
-  constexpr Index kCells = 20;
+  constexpr Index kSquares = 20;
   constexpr double kFirstOrder = 0.05;  // of the range, in corners of pages of 20 cells
-  const MeshPtr mesh = finish(book(3, kCells));
+  const MeshPtr mesh = finish(book(3, kSquares));
   const HeatMethod method = method_of(mesh);
   EXPECT_EQ(method.laplacian(), LaplacianKind::kTufted);
   Index source = 0;  // the middle of the first page
@@ -60,7 +60,7 @@ TEST(PagesOfABook, AreAsFarApartAsInTheUnfoldedPlane) {
   }
   const Vec3 from = mesh->positions()[source];
   const auto d = solve(method, SourceSet::of_vertices({source})).distances;
-  const auto first_page = static_cast<Index>((kCells + 1) * (kCells + 1));
+  const auto first_page = static_cast<Index>((kSquares + 1) * (kSquares + 1));
   for (Index v = 0; v < mesh->vertex_count(); ++v) {
     const Vec3& p = mesh->positions()[v];
     const double from_spine = std::hypot(p.x(), p.z());

@@ -46,7 +46,8 @@ struct Quality {
   double clamped_reach = 0;        ///< straight line to the farthest of these, model units
   Index reached_vertices = 0;      ///< with a distance
   /// Distances below the straight line to the nearest source by more than the method's tolerance
-  /// (BoundTolerance), and the largest share of the line that is missing in one of them.
+  /// (BoundTolerance), before they are raised to it where that is done, and the largest share of
+  /// the line that is missing in one of them.
   Index below_straight_line = 0;
   double most_below_straight_line = 0;  ///< that share
   /// Edges along which the distance differs by more than their length and that tolerance, and the

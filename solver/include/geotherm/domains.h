@@ -39,10 +39,11 @@ struct CellComplex {
   /// C, ascending: what sources call each cell; empty: 0 to C - 1. Cells with the same corners, in
   /// one order, may share a number, as the triangles of a polygon do.
   std::vector<Index> numbers;
+  std::vector<Vec3> virtual_vertices;  ///< C: those of polygons, model units; empty: others
   /// V, model units; empty where the vertices lie nowhere. Elimination orders are better with them.
   std::vector<Vec3> positions;
-  /// No way is shorter than the straight line between `positions`: queries count what is below.
-  bool lengths_are_straight = true;
+  /// No way is shorter than the straight line between `positions`: what is below it is raised.
+  bool lengths_are_straight = false;
   std::vector<Warning> notes;  ///< about what was left out: HeatMethod::warnings() begins with them
   std::string cell_name = "cell", cells_name = "cells";  ///< in messages
 

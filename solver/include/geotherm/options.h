@@ -88,7 +88,7 @@ inline NamedValues<BoundaryRule> named_values(BoundaryRule) {
 /// How the method is discretised (docs/numerics.md, "What is corrected").
 enum class Variant {
   kCorrected,  ///< half-lumped mass, |X| < 1 where fronts meet, exact field in the source's
-               ///< faces; where vertices were inserted, near-exact distances around sources
+               ///< faces, near-exact distances around sources, none below the straight line
   kClassic,    ///< as published: lumped mass, |X| = 1 on every face
 };
 inline NamedValues<Variant> named_values(Variant) {

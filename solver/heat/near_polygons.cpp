@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: MIT
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <unordered_set>
+#include <utility>
+
+#include "solver/heat/cell_domain.h"
+#include "solver/heat/near_march.h"
+
+namespace geotherm {
+namespace {
+
+/// The triangles between the sides and the virtual vertices of the faces at the sources of one
+/// component. Corners are numbered by rows, virtual vertices after them by faces.
+class NearPolygons {
+ public:
+  NearPolygons(const CellDomain& domain, const SourceAnchors& anchors, Index component)
+      : domain_(domain), mesh_(*domain.mesh), given_(*domain.given) {
+    for (const auto& anchor : anchors.anchors) {
+      if (mesh_.components.of[anchor.row] != component) continue;
+      seeds_.push_back({anchor.row, anchor.offset});
+      places_.push_back(place_of(anchor.row));
+    }
+    for (const CellPoint& point : anchors.cell_points) add_virtual_vertex(point, component);
+  }
+
+  std::span<const NearDistance> seeds() const { return seeds_; }
+  /// Whether some face that was asked for does not see all its sides from its virtual vertex: its
+  /// triangles are not the face then.
+  bool overlap() const { return overlap_; }
+
+  NearFaces within(double reach) {
+    NearFaces out;
+    out.are_all = true;
+    std::vector<Index> rows;
+    std::unordered_set<Index> seen_rows, seen_faces;
+    const auto see = [&](Index row) {
+      if (seen_rows.insert(row).second) rows.push_back(row);
+    };
+    for (const NearDistance& seed : seeds_) {
+      if (seed.vertex < domain_.size()) see(static_cast<Index>(seed.vertex));
+    }
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      const Vec3 place = place_of(rows[i]);
+      const auto is_near = [&](const Vec3& source) { return (place - source).norm() <= reach; };
+      if (std::ranges::none_of(places_, is_near)) {
+        out.are_all = false;
+        continue;
+      }
+      for (const Index cell : mesh_.cells_at.at(rows[i])) {
+        const Index given = mesh_.given_cell[cell];
+        if (!seen_faces.insert(given_.numbers[given]).second) continue;
+        std::ranges::for_each(mesh_.corners_of(cell), see);
+        add_face(given, mesh_.corners_of(cell), out.faces);
+      }
+    }
+    return out;
+  }
+
+ private:
+  Vec3 place_of(Index row) const {
+    return given_.positions[domain_.vertex_of_row[row]] / domain_.unit;
+  }
+  Vec3 virtual_vertex(Index given) const { return given_.virtual_vertices[given] / domain_.unit; }
+  std::int64_t number_of_virtual(Index given) const {
+    return domain_.size() + static_cast<std::int64_t>(given_.numbers[given]);
+  }
+
+  /// The straight line to the virtual vertex of the face that a source is in.
+  void add_virtual_vertex(const CellPoint& point, Index component) {
+    const Index given = domain_.find_cell(point.cell);
+    const auto rows = mesh_.corners_of(domain_.cell_of_given[given]);
+    const bool is_corner = std::ranges::find(point.weights, 1.0) != point.weights.end();
+    if (mesh_.components.of[rows.front()] != component || is_corner || rows.size() == 3) return;
+    Vec3 place = Vec3::Zero();
+    for (std::size_t k = 0; k < rows.size(); ++k) place += point.weights[k] * place_of(rows[k]);
+    seeds_.push_back({number_of_virtual(given), (virtual_vertex(given) - place).norm()});
+  }
+
+  void add_face(Index given, std::span<const Index> rows, std::vector<NearFace>& faces) {
+    std::vector<Vec3> at;
+    std::ranges::transform(rows, std::back_inserter(at),
+                           [this](Index row) { return place_of(row); });
+    const auto add = [&faces](std::int64_t a, std::int64_t b, std::int64_t c, const Vec3& at_a,
+                              const Vec3& at_b, const Vec3& at_c) {
+      const std::array lengths = {(at_b - at_a).norm(), (at_c - at_b).norm(), (at_a - at_c).norm()};
+      faces.push_back({{a, b, c}, lay_out(lengths)});
+    };
+    if (rows.size() == 3) return add(rows[0], rows[1], rows[2], at[0], at[1], at[2]);
+    const Vec3 apex = virtual_vertex(given);
+    Vec3 normal = Vec3::Zero();
+    for (std::size_t k = 0; k < at.size(); ++k) {
+      normal += (at[k] - apex).cross(at[(k + 1) % at.size()] - apex);
+    }
+    for (std::size_t k = 0; k < at.size(); ++k) {
+      const std::size_t next = (k + 1) % at.size();
+      if (at[k] == at[next]) continue;
+      overlap_ |= !(normal.dot((at[k] - apex).cross(at[next] - apex)) > 0);
+      add(rows[k], rows[next], number_of_virtual(given), at[k], at[next], apex);
+    }
+  }
+
+  const CellDomain& domain_;
+  const CellMesh& mesh_;
+  const CellComplex& given_;
+  std::vector<NearDistance> seeds_;
+  std::vector<Vec3> places_;  ///< of the anchors
+  bool overlap_ = false;
+};
+
+}  // namespace
+
+std::vector<NearVertex> near_polygons(const CellDomain& domain, const SourceAnchors& anchors) {
+  std::vector<NearVertex> out;
+  if (domain.given->virtual_vertices.empty()) return out;
+  for (const Index component : anchors.components) {
+    NearPolygons near(domain, anchors, component);
+    const ComponentSize& size = domain.components[component];
+    const auto found = march_around(
+        near.seeds(),
+        near_count(anchors.source_count(domain.parts_of_rows(), component), size.cells),
+        size.mean_edge, [&near](double reach) { return near.within(reach); });
+    if (near.overlap()) continue;
+    for (const NearDistance& each : found) {
+      const double share = share_of_heat(each.distance, found.back().distance);
+      if (share == 1 || each.vertex >= domain.size()) continue;
+      out.push_back({static_cast<Index>(each.vertex), each.distance, share});
+    }
+  }
+  return out;
+}
+
+}  // namespace geotherm
