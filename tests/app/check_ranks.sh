@@ -93,9 +93,11 @@ done
 # No rank takes another backend than the others.
 refused 2 'native: needs about' "$program" solve bunny -s 0,1 --each --memory-limit 1 -o rows.npy
 refused 2 'native: needs about' "$program" sample bunny -n 3 --memory-limit 1
-# A signal to mpirun ends all and leaves nothing.
+# A signal to mpirun ends all and leaves nothing: it asks ranks to end after so many seconds, and kills them after
+# as many more.
 for signal in TERM INT; do
-  mpirun --oversubscribe -q -n 2 "$program" solve many.ply -s random:9000 --each --no-check --threads 1 -o rows.npy >/dev/null 2>&1 &
+  OMPI_MCA_odls_base_sigkill_timeout=2 mpirun --oversubscribe -q -n 2 "$program" solve many.ply -s random:9000 --each \
+    --no-check --threads 1 -o rows.npy >/dev/null 2>&1 &
   launcher=$!
   for _ in $(seq 300); do [ -z "$(find . -name 'rows.npy.*')" ] || break; sleep 0.1; done
   [ -n "$(find . -name 'rows.npy.*')" ] || fail "no rows before the signal"

@@ -70,6 +70,8 @@ agrees plane.ply 7 15 4 --variant classic --laplacian cotan
 agrees plane.ply 7,5000 15 "2 8" "${delaunay[@]}"
 agrees three.ply 5,3000 15 4 "${delaunay[@]}" -m 4
 agrees obtuse.ply 0 15 4 "${delaunay[@]}"
+# So few faces that the source alone is near it.
+agrees little.ply 12 15 2 "${delaunay[@]}"
 # Figures of the report are those of one process; compact factors are checked as well.
 "$program" solve plane.ply -s 7 --no-check "${delaunay[@]}" --json one.json >/dev/null
 shared 4 plane.ply 7
@@ -85,12 +87,13 @@ waves obtuse.ply 0 "1 8"
 waves stretched.ply 3 "4"
 waves strip.ply 0 "8"
 waves book.ply 0 "4"
-# Heat is held against waves unless --no-check says otherwise: the figures of one process.
+# Heat is held against waves unless --no-check says otherwise: the figures of one process, but for the order
+# within a band, which moves fitted waves by some 1e-5.
 "$program" solve obtuse.ply -s 0 "${delaunay[@]}" --json one.json >/dev/null
 shared 4 obtuse.ply 0
 for key in mean_relative max_of_range; do
   awk "BEGIN { a = $(figure $key); b = $(grep -o "\"$key\": [0-9.e+-]*" one.json | head -n 1 | cut -d' ' -f2)
-               exit !(a - b <= 1e-2 * b && b - a <= 1e-2 * b) }" || fail "$key: $(figure $key)"
+               few = 1e-2 * b + 1e-5; exit !(a - b <= few && b - a <= few) }" || fail "$key: $(figure $key)"
 done
 shared 2 plane.ply 7 --no-check
 if grep -q '"error"' d.json; then fail "--no-check: checked"; fi

@@ -77,6 +77,7 @@ if sys.argv[1] == "make":
     write("obtuse.ply", *plane(90, 70, shear=2.3))
     write("stretched.ply", *plane(90, 70, stretch=10.0))
     write("strip.ply", *plane(1500, 3))
+    write("little.ply", *plane(5, 5))
     write("wide.ply", *plane(90, 70, size=1e200))
     write("twice.ply", *plane(90, 70, repeated=50))
     # A sheet that stands on another: edges with three faces.
@@ -93,6 +94,7 @@ if sys.argv[1] == "make":
 else:
     a, b, share = numbers(sys.argv[2]), numbers(sys.argv[3]), float(sys.argv[4])
     assert len(a) == len(b), f"{len(a)} and {len(b)} distances"
+    assert all(not math.isnan(x) for x in b), "not a number"
     assert all(math.isinf(x) == math.isinf(y) for x, y in zip(a, b)), "others are reached"
     most = max(x for x in a if not math.isinf(x))
     off = max(abs(x - y) for x, y in zip(a, b) if not math.isinf(x)) / most
