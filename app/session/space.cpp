@@ -85,7 +85,7 @@ PolygonSpace::PolygonSpace(std::shared_ptr<const CellComplex> cells,
                            std::shared_ptr<const TriangleMesh> triangles,
                            std::vector<Index> cells_of_faces, std::vector<char> used)
     : Space({"polygons", "polygon", "polygons", "polygon mesh", "triangulation",
-             "1.2 times the mean distance of two corners"},
+             "mean distance of two corners"},
             std::move(used), MethodKind::kWavefront),
       cells_(std::move(cells)),
       triangles_(std::move(triangles)),

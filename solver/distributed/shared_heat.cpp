@@ -339,6 +339,7 @@ std::shared_ptr<const Surface> faces_alone(const Surface& surface, bool analysis
   out->operators = surface.operators;
   if (analysis) out->analysis = surface.analysis;
   out->intrinsic.twin = surface.intrinsic.twin;
+  out->is_delaunay = surface.is_delaunay;
   out->unit = surface.unit;
   out->vertex_of_row = surface.vertex_of_row;
   out->row_of_vertex = surface.row_of_vertex;

@@ -42,11 +42,11 @@ NearFaces faces_within(const SharedTask& task, std::span<const MeshBlock> blocks
 }
 
 bool are_delaunay(const SharedTask& task, std::span<const MeshBlock> blocks) {
-  double flips = 0;
+  double others = 0;
   for (const MeshBlock& block : blocks) {
-    if (block.surface) flips += count_non_delaunay(block.surface->intrinsic);
+    others += block.surface && !block.surface->is_delaunay ? 1 : 0;
   }
-  return task.ranks.sum(flips) == 0;
+  return task.ranks.sum(others) == 0;
 }
 
 }  // namespace

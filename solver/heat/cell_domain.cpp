@@ -52,8 +52,8 @@ void follow_thickness(CellDomain& domain) {
   std::vector<double> volume(domain.components.size(), 0.0), area(volume);
   for (Index c = 0; c < mesh.cell_count(); ++c) {
     const auto corners = mesh.corners_of(c);
-    const auto place = [&](std::size_t k) -> const Vec3& {
-      return domain.given->positions[domain.vertex_of_row[corners[k % 4]]];
+    const auto place = [&](std::size_t k) {
+      return Vec3(domain.given->positions[domain.vertex_of_row[corners[k % 4]]] / domain.unit);
     };
     for (std::size_t k = 0; k < 4; ++k) {
       const Vec3 edge = place(k) - place(k + 1);
@@ -72,7 +72,7 @@ void follow_thickness(CellDomain& domain) {
     const double of_ball = std::cbrt(36 * std::numbers::pi) * side * side;
     double thickness = 3 * volume[c] / std::max(area[c], of_ball);
     thickness *= std::min(1.0, thickness / (kLong * side));
-    const double in_widths = thickness / domain.unit / size.mean_edge;
+    const double in_widths = thickness / size.mean_edge;
     size.grading = std::max(kLeastTime, std::pow(in_widths / kThickness, 2.0 / 3));
   }
 }

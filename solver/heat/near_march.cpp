@@ -98,8 +98,8 @@ double straight_through(const Place& a, const Place& b, const Place& target, dou
   const double height = std::abs(side.x * apart.y - side.y * apart.x) / length;
   const double source = (length + (from_a - from_b) * (from_a + from_b) / length) / 2;
   const double square = (from_a - source) * (from_a + source);
-  if (!(square >= 0)) return kUnreached;
-  const double depth = std::sqrt(square);
+  if (!(square >= -kTolerance * length * length)) return kUnreached;
+  const double depth = std::sqrt(std::max(square, 0.0));
   const double crossing = source + (along - source) * depth / (depth + height);
   const bool passes = crossing >= -kTolerance * length && crossing <= (1 + kTolerance) * length;
   return passes ? length_of(along - source, depth + height) : kUnreached;

@@ -34,10 +34,9 @@ struct NearFaces {
 /// The `count` vertices nearest to the seeds, ascending, with their distances: by marching over
 /// faces, each of which takes the source back from the distances at two corners and sees the third
 /// from there, where the straight line passes between the two (Novotni, Klein 2002), and along
-/// edges elsewhere. A vertex that gets a shorter way later passes it on. From one seed in a plane
-/// that is exact, but at vertices whose shortest way leads between two of which one is farther than
-/// the last. `corners`: of `faces`. Cost: O(count log count) on Delaunay triangles, whatever the
-/// mesh has.
+/// edges elsewhere. From one seed in a plane that is exact, but at vertices whose shortest way
+/// leads between two of which one is farther than the last. `corners`: of `faces`. Cost: O(count
+/// log count) on Delaunay triangles, whatever the mesh has.
 std::vector<NearDistance> march_nearest(const CornerTable& corners, std::span<const Face> faces,
                                         std::span<const FaceLayout> layout,
                                         std::span<const NearDistance> seeds, std::size_t count);

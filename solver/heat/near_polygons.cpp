@@ -2,14 +2,73 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <unordered_set>
 #include <utility>
 
+#include "solver/geometry/delaunay.h"
 #include "solver/heat/cell_domain.h"
 #include "solver/heat/near_march.h"
 
 namespace geotherm {
 namespace {
+
+/// Triangles that are flipped to Delaunay.
+class FlippedFaces {
+ public:
+  void add(const std::array<std::int64_t, 3>& corners, const std::array<double, 3>& lengths) {
+    Face& face = mesh_.faces.emplace_back();
+    for (int k = 0; k < 3; ++k) {
+      const auto [entry, is_new] =
+          here_.try_emplace(corners[k], static_cast<Index>(numbers_.size()));
+      if (is_new) numbers_.push_back(corners[k]);
+      face[k] = entry->second;
+    }
+    mesh_.lengths.push_back(lengths);
+  }
+
+  std::vector<NearFace> flip() {
+    join();
+    (void)flip_to_delaunay(mesh_);  // fails where its progress ends it alone
+    std::vector<NearFace> out;
+    for (Index f = 0; f < mesh_.face_count(); ++f) {
+      const Face& face = mesh_.faces[f];
+      out.push_back(
+          {{numbers_[face[0]], numbers_[face[1]], numbers_[face[2]]}, lay_out(mesh_.lengths[f])});
+    }
+    return out;
+  }
+
+ private:
+  /// Sides of two faces that run against each other are one edge, but where a face is flat.
+  void join() {
+    constexpr double kFlat = 1e-9;
+    mesh_.twin.assign(3 * mesh_.faces.size(), kNoSide);
+    std::map<std::pair<Index, Index>, std::vector<Side>> edges;
+    for (Side side = 0; side < std::ssize(mesh_.twin); ++side) {
+      edges[std::minmax(first_of(side), second_of(side))].push_back(side);
+    }
+    const auto is_flat = [this](Side side) {
+      const auto& l = mesh_.lengths[face_of(side)];
+      const double half = (l[0] + l[1] + l[2]) / 2;
+      return !(half - std::ranges::max(l) > kFlat * half);
+    };
+    for (const auto& [ends, sides] : edges) {
+      if (sides.size() != 2 || first_of(sides[0]) != second_of(sides[1])) continue;
+      if (is_flat(sides[0]) || is_flat(sides[1])) continue;
+      mesh_.twin[sides[0]] = sides[1];
+      mesh_.twin[sides[1]] = sides[0];
+    }
+  }
+  Index first_of(Side side) const { return mesh_.faces[face_of(side)][corner_of(side)]; }
+  Index second_of(Side side) const {
+    return mesh_.faces[face_of(side)][next_corner(corner_of(side))];
+  }
+
+  IntrinsicMesh mesh_;
+  std::vector<std::int64_t> numbers_;   ///< of its vertices
+  std::map<std::int64_t, Index> here_;  ///< the other way round
+};
 
 /// The triangles between the sides and the virtual vertices of the faces at the sources of one
 /// component. Corners are numbered by rows, virtual vertices after them by faces.
@@ -26,13 +85,14 @@ class NearPolygons {
   }
 
   std::span<const NearDistance> seeds() const { return seeds_; }
-  /// Whether some face that was asked for does not see all its sides from its virtual vertex: its
-  /// triangles are not the face then.
+  /// Whether some face that was asked for does not see all its sides from its virtual vertex, or
+  /// has one without a length: its triangles are not the face then.
   bool overlap() const { return overlap_; }
 
   NearFaces within(double reach) {
     NearFaces out;
     out.are_all = true;
+    FlippedFaces faces;
     std::vector<Index> rows;
     std::unordered_set<Index> seen_rows, seen_faces;
     const auto see = [&](Index row) {
@@ -52,9 +112,10 @@ class NearPolygons {
         const Index given = mesh_.given_cell[cell];
         if (!seen_faces.insert(given_.numbers[given]).second) continue;
         std::ranges::for_each(mesh_.corners_of(cell), see);
-        add_face(given, mesh_.corners_of(cell), out.faces);
+        add_face(given, mesh_.corners_of(cell), faces);
       }
     }
+    out.faces = faces.flip();
     return out;
   }
 
@@ -78,14 +139,14 @@ class NearPolygons {
     seeds_.push_back({number_of_virtual(given), (virtual_vertex(given) - place).norm()});
   }
 
-  void add_face(Index given, std::span<const Index> rows, std::vector<NearFace>& faces) {
+  void add_face(Index given, std::span<const Index> rows, FlippedFaces& faces) {
     std::vector<Vec3> at;
     std::ranges::transform(rows, std::back_inserter(at),
                            [this](Index row) { return place_of(row); });
     const auto add = [&faces](std::int64_t a, std::int64_t b, std::int64_t c, const Vec3& at_a,
                               const Vec3& at_b, const Vec3& at_c) {
       const std::array lengths = {(at_b - at_a).norm(), (at_c - at_b).norm(), (at_a - at_c).norm()};
-      faces.push_back({{a, b, c}, lay_out(lengths)});
+      faces.add({a, b, c}, lengths);
     };
     if (rows.size() == 3) return add(rows[0], rows[1], rows[2], at[0], at[1], at[2]);
     const Vec3 apex = virtual_vertex(given);
@@ -95,7 +156,6 @@ class NearPolygons {
     }
     for (std::size_t k = 0; k < at.size(); ++k) {
       const std::size_t next = (k + 1) % at.size();
-      if (at[k] == at[next]) continue;
       overlap_ |= !(normal.dot((at[k] - apex).cross(at[next] - apex)) > 0);
       add(rows[k], rows[next], number_of_virtual(given), at[k], at[next], apex);
     }
@@ -113,7 +173,7 @@ class NearPolygons {
 
 std::vector<NearVertex> near_polygons(const CellDomain& domain, const SourceAnchors& anchors) {
   std::vector<NearVertex> out;
-  if (domain.given->virtual_vertices.empty()) return out;
+  if (domain.given->virtual_vertices.empty() || !domain.given->lengths_are_straight) return out;
   for (const Index component : anchors.components) {
     NearPolygons near(domain, anchors, component);
     const ComponentSize& size = domain.components[component];

@@ -70,6 +70,9 @@ agrees plane.ply 7 15 4 --variant classic --laplacian cotan
 agrees plane.ply 7,5000 15 "2 8" "${delaunay[@]}"
 agrees three.ply 5,3000 15 4 "${delaunay[@]}" -m 4
 agrees obtuse.ply 0 15 4 "${delaunay[@]}"
+# As they are, near fields where the edges are Delaunay.
+agrees plane.ply 7 15 "1 4" --laplacian cotan
+agrees obtuse.ply 0 20 2 --laplacian cotan
 # So few faces that the source alone is near it.
 agrees little.ply 12 15 2 "${delaunay[@]}"
 # Figures of the report are those of one process; compact factors are checked as well.

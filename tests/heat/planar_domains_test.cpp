@@ -5,6 +5,7 @@
 #include <cmath>
 #include <map>
 #include <numbers>
+#include <random>
 #include <utility>
 
 #include "tests/support/cells.h"
@@ -177,26 +178,51 @@ TEST_P(Polygons, HaveErrorsLikeThoseOfTheirTriangles) {
 }
 
 TEST(Polygons, AreNearExactBesideSources) {
-  // Exact in the plane, whose triangles at virtual vertices are not obtuse, from corners and from
-  // within faces.
+  // Exact in the plane, whose triangles at virtual vertices are not obtuse, from corners, from
+  // within faces and from a side.
   const auto cells = shared(cells_of(quads(40, 0)));
-  SourceSet sources = SourceSet::of_vertices({41 * 20 + 20});
-  sources.cell_points.push_back({40 * 8 + 9, {0.1, 0.2, 0.4, 0.3}});
-  const auto& corners = cells->corners_of(4 * (40 * 8 + 9));
-  Vec3 inside = Vec3::Zero();
-  for (std::size_t k = 0; k < 4; ++k) {
-    inside += sources.cell_points[0].weights[k] * cells->positions[corners[k]];
+  for (const std::vector<double>& weights :
+       {std::vector<double>{0.1, 0.2, 0.4, 0.3}, {0.3, 0.7, 0, 0}, {0, 0.6, 0.4, 0}}) {
+    SourceSet sources = SourceSet::of_vertices({41 * 20 + 20});
+    sources.cell_points.push_back({40 * 8 + 9, weights});
+    const auto& corners = cells->corners_of(4 * (40 * 8 + 9));
+    Vec3 inside = Vec3::Zero();
+    for (std::size_t k = 0; k < 4; ++k) inside += weights[k] * cells->positions[corners[k]];
+    const auto distances = solve_cells(cells, sources).distances;
+    int count = 0;
+    for (std::size_t v = 0; v < distances.size(); ++v) {
+      const double line = std::min((cells->positions[v] - cells->positions[41 * 20 + 20]).norm(),
+                                   (cells->positions[v] - inside).norm());
+      if (line > 1.5 / 40) continue;
+      ++count;
+      EXPECT_NEAR(distances[v], line, 1e-9);
+    }
+    EXPECT_GT(count, 12);
   }
-  const auto distances = solve_cells(cells, sources).distances;
-  int count = 0;
-  for (std::size_t v = 0; v < distances.size(); ++v) {
-    const double line = std::min((cells->positions[v] - cells->positions[41 * 20 + 20]).norm(),
-                                 (cells->positions[v] - inside).norm());
-    if (line > 1.5 / 40) continue;
-    ++count;
-    EXPECT_NEAR(distances[v], line, 1e-12);
+}
+
+TEST(Polygons, OfLongFacesAreNearExactAsWell) {
+  // Eight times as long as wide, corners moved: their fans are flipped before they are marched
+  // over.
+  PolygonMesh mesh = quads(40, 0);
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> shift(-0.25 / 40, 0.25 / 40);
+  for (Vec3& at : mesh.positions) {
+    const bool inner = at[0] > 0 && at[0] < 1 && at[1] > 0 && at[1] < 1;
+    if (inner) at += Vec3(shift(random), shift(random), 0);
+    at[0] *= 8;
   }
-  EXPECT_GT(count, 12);
+  const auto cells = shared(cells_of(mesh));
+  const Index source = 41 * 20 + 20;
+  const auto distances = solve_cells(cells, SourceSet::of_vertices({source})).distances;
+  double off = 0, sum = 0;
+  for (Index v = 0; v < cells->vertices; ++v) {
+    const double line = (cells->positions[v] - cells->positions[source]).norm();
+    if (line > 0.15) continue;  // six sides, and most of one the other way
+    off += distances[v] - line;
+    sum += line;
+  }
+  EXPECT_LE(off, 0.05 * sum);
 }
 
 INSTANTIATE_TEST_SUITE_P(Shapes, Polygons,
