@@ -4,7 +4,6 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <ranges>
 #include <set>
 
 #include "app/picture/openness.h"
@@ -23,24 +22,17 @@ PictureData::Vector to_float(const Vec3& v) {
 class SceneSpace {
  public:
   /// The space that the vertices of faces take up.
-  explicit SceneSpace(const TriangleMesh& mesh)
-      : SceneSpace(mesh.faces() | std::views::join |
-                   std::views::transform([&mesh](Index v) { return mesh.positions()[v]; })) {}
+  explicit SceneSpace(const TriangleMesh& mesh) {
+    fit([&mesh](const auto& see) {
+      for (const Face& face : mesh.faces()) {
+        for (const Index v : face) see(mesh.positions()[v]);
+      }
+    });
+  }
 
-  template <std::ranges::forward_range Points>
-  explicit SceneSpace(Points&& points) {
-    Vec3 low = Vec3::Constant(kUnreached);
-    Vec3 high = -low;
-    for (const Vec3& p : points) {
-      low = low.cwiseMin(p);
-      high = high.cwiseMax(p);
-    }
-    centre_ = 0.5 * low + 0.5 * high;
-    const double half = (0.5 * high - 0.5 * low).maxCoeff();
-    if (half > 0) box_ = half;
-    double radius = 0;
-    for (const Vec3& p : points) radius = std::max(radius, in_box(p).norm());
-    if (radius > 0) radius_ = radius;
+  /// The space that points take up.
+  explicit SceneSpace(std::span<const Vec3> points) {
+    fit([points](const auto& see) { std::ranges::for_each(points, see); });
   }
 
   /// How the data say it: the inverse map.
@@ -53,6 +45,23 @@ class SceneSpace {
   }
 
  private:
+  /// `each` shows all points to what it is given.
+  template <class Each>
+  void fit(const Each& each) {
+    Vec3 low = Vec3::Constant(kUnreached);
+    Vec3 high = -low;
+    each([&](const Vec3& p) {
+      low = low.cwiseMin(p);
+      high = high.cwiseMax(p);
+    });
+    centre_ = 0.5 * low + 0.5 * high;
+    const double half = (0.5 * high - 0.5 * low).maxCoeff();
+    if (half > 0) box_ = half;
+    double radius = 0;
+    each([&](const Vec3& p) { radius = std::max(radius, in_box(p).norm()); });
+    if (radius > 0) radius_ = radius;
+  }
+
   Vec3 in_box(const Vec3& p) const { return (p - centre_) / box_; }
 
   Vec3 centre_ = Vec3::Zero();
@@ -80,7 +89,7 @@ PictureData picture_in(const SceneSpace& scene, const TriangleMesh& mesh) {
     data.faces.push_back({static_cast<std::uint32_t>(face[0]), static_cast<std::uint32_t>(face[1]),
                           static_cast<std::uint32_t>(face[2])});
   }
-  data.openness = openness_of(data.positions, data.faces);
+  light_picture(data);
   return data;
 }
 
@@ -110,8 +119,9 @@ void move_picture(PictureData& data, const TriangleMesh& mesh) {
   for (const Face& face : mesh.faces()) {
     for (const Index v : face) data.positions[v] = scene.of(mesh.positions()[v]);
   }
-  data.openness = openness_of(data.positions, data.faces);
 }
+
+void light_picture(PictureData& data) { data.openness = openness_of(data.positions, data.faces); }
 
 bool is_solid(const TriangleMesh& mesh, const MeshReport& report) {
   if (report.boundary_edges > 0 || report.nonmanifold_edges > 0 || report.inconsistent_faces > 0 ||

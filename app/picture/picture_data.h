@@ -93,9 +93,11 @@ PictureData picture_of(const TriangleMesh& mesh, std::shared_ptr<const TetMesh> 
 /// A frame of a surface that moves, in the scene of these points (model units), which the camera
 /// fits: with the points of all frames it stands still. Precondition: there are some.
 PictureData picture_of_frame(const TriangleMesh& mesh, std::span<const Vec3> extent);
-/// Puts the vertices of the surface where `mesh` has them; the map into scene space stays.
-/// Precondition: the faces are those of `data`.
+/// Puts the vertices of the surface where `mesh` has them; the map into scene space stays, and so
+/// does the light. Precondition: the faces are those of `data`.
 void move_picture(PictureData& data, const TriangleMesh& mesh);
+/// Finds how much light comes to the vertices where they are now. Cost: O(V + F).
+void light_picture(PictureData& data);
 
 /// Whether the mesh is one closed surface whose faces all run counter-clockwise seen from outside.
 bool is_solid(const TriangleMesh& mesh, const MeshReport& report);

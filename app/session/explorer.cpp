@@ -210,9 +210,8 @@ Result<void> Explorer::move(const ExploreRequest& request, const Progress& progr
     model_ = read_;
     solver_->set_summary(model_->mesh);
   } else {
-    // Nothing is picked while frames are played.
     const bool plays = !request.quality && pose.frame != pose_.frame;
-    auto moved = moved_model(*std::move(mesh), !plays, progress);
+    auto moved = moved_model(*std::move(mesh), plays, progress);
     if (!moved) return moved.error();
     model_ = *std::move(moved);
   }
@@ -232,9 +231,10 @@ Result<void> Explorer::make_rays(ExploredModel& model, const Progress& progress)
   return {};
 }
 
-/// The model with its vertices elsewhere. What is said of its mesh is old.
+/// The model with its vertices elsewhere. What is said of its mesh is old. Nothing is picked while
+/// frames are played, and light stays what it was while a stroke is drawn.
 Result<std::shared_ptr<const ExploredModel>> Explorer::moved_model(
-    std::shared_ptr<const TriangleMesh> mesh, bool with_rays, const Progress& progress) {
+    std::shared_ptr<const TriangleMesh> mesh, bool plays, const Progress& progress) {
   auto moved = std::make_shared<ExploredModel>(*model_);
   std::vector<std::string> what;
   if (sequence_) {
@@ -244,13 +244,14 @@ Result<std::shared_ptr<const ExploredModel>> Explorer::moved_model(
   if (!sequence_ || mesh != sequence_->mesh) what.emplace_back("sculpted");
   moved->model.name = read_->model.name + " (" + joined(what) + ")";
   moved->frames = sequence_ ? static_cast<int>(sequence_->frames.count()) : 0;
-  auto base = std::make_shared<PictureData>(*read_->base);
+  auto base = std::make_shared<PictureData>(*model_->base);
   move_picture(*base, *mesh);
+  if (plays) light_picture(*base);
   base->solid = false;  // a stroke may have gone through to the other side
   moved->base = std::move(base);
   moved->model.mesh = std::move(mesh);
   moved->rays = nullptr;
-  if (with_rays) {
+  if (!plays) {
     if (auto made = make_rays(*moved, progress); !made) return made.error();
   }
   return std::shared_ptr<const ExploredModel>(std::move(moved));
@@ -276,6 +277,9 @@ Result<void> Explorer::inspect(const Progress& progress) {
     if (auto made = make_rays(*model, progress); !made) return made;
   }
   describe(*model);
+  auto base = std::make_shared<PictureData>(*model->base);
+  light_picture(*base);
+  model->base = std::move(base);
   solver_->set_summary(model->mesh);
   model_ = std::move(model);
   inspected_ = true;

@@ -74,8 +74,7 @@ class Explorer {
   Result<void> move(const ExploreRequest& request, const Progress& progress);
   Result<std::shared_ptr<const TriangleMesh>> frame_mesh(const Pose& pose);
   Result<std::shared_ptr<const ExploredModel>> moved_model(std::shared_ptr<const TriangleMesh> mesh,
-                                                           bool with_rays,
-                                                           const Progress& progress);
+                                                           bool plays, const Progress& progress);
   Result<void> make_rays(ExploredModel& model, const Progress& progress);
   Result<void> inspect(const Progress& progress);
   Result<std::vector<Warning>> place_sources(const ExploreRequest& request, Explored& explored);

@@ -76,6 +76,34 @@ TEST_F(SessionSculpt, UndoTakesAStrokeBackAsAWholeToTheSameBits) {
   EXPECT_EQ(test::texts_of(session.state().sources), std::vector<std::string>{"random:1"});
 }
 
+TEST_F(SessionSculpt, LightStaysUnderTheHandAndIsFoundAnewAtRest) {
+  const auto light = [this] {
+    std::vector<float> out;
+    for (const auto& at : session.explored().model->base->openness) {
+      out.insert(out.end(), {at.front, at.back});
+    }
+    return out;
+  };
+  run({"open " + small_model(), "source set 5"});
+  const std::vector<float> before = light();
+  const auto flat = session.explored().model->base->positions;
+  session.set_dragging(true);
+  sculpt();
+  EXPECT_NE(session.explored().model->base->positions, flat);
+  EXPECT_EQ(light(), before);
+  session.set_dragging(false);
+  ASSERT_TRUE(session.finish());
+  const std::vector<float> at_rest = light();
+  EXPECT_NE(at_rest, before);
+  // As bright as one that was opened in this shape.
+  run({"save mesh " + folder() + "bent.ply", "open " + folder() + "bent.ply"});
+  const std::vector<float> opened = light();
+  ASSERT_EQ(opened.size(), at_rest.size());
+  double apart = 0;
+  for (std::size_t i = 0; i < opened.size(); ++i) apart += std::abs(opened[i] - at_rest[i]);
+  EXPECT_LE(apart, 0.02 * static_cast<double>(opened.size()));  // its scene has another scale
+}
+
 TEST_F(SessionSculpt, DistancesAreThoseOfTheMeshThatIsWritten) {
   run({"open " + small_model(), "source set 5 face:200:0.2:0.3:0.5"});
   sculpt();
