@@ -176,8 +176,10 @@ void draw_figures(Frame& frame, const Quality& quality, bool heat) {
   draw_value(frame, "Poisson residual", app::significant(quality.poisson_residual, 2), "",
              "|L \u03c6 \u2212 b| / |b| of the Poisson step.",
              warn(quality.poisson_residual > large));
-  draw_value(frame, "faces without \u2207u", app::grouped(quality.zero_gradient_faces), "",
-             "Faces in reach in which the heat has no gradient: no direction can be had there.",
+  const bool has_faces = frame.model()->model.space == nullptr;
+  draw_value(frame, has_faces ? "faces without \u2207u" : "cells without \u2207u",
+             app::grouped(quality.zero_gradient_faces), "",
+             "Those in reach in which the heat has no gradient: no direction can be had there.",
              warn(quality.zero_gradient_faces > 0));
   draw_value(frame, "clamped vertices", app::grouped(quality.clamped_vertices), "",
              "Distances below 0 by more than round-off, set to 0.",
