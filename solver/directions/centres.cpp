@@ -277,7 +277,7 @@ std::vector<Index> starts_of(const TriangleMesh& mesh, const std::vector<double>
   return out;
 }
 
-Vec3 place_of(const TriangleMesh& mesh, const Centre& centre) {
+Vec3 position_of(const TriangleMesh& mesh, const Centre& centre) {
   return position_at(mesh, centre.point);
 }
 
@@ -350,7 +350,7 @@ Result<Centres> find_centres(const std::shared_ptr<const TriangleMesh>& mesh,
     if (!centre) return centre.error();
     centre->point = pointed->out_of(centre->point);
     const bool known = std::ranges::any_of(out.found, [&](const Centre& other) {
-      return (place_of(*mesh, other) - place_of(*mesh, *centre)).norm() <= kOnePlace * edge;
+      return (position_of(*mesh, other) - position_of(*mesh, *centre)).norm() <= kOnePlace * edge;
     });
     if (!known) out.found.push_back(*std::move(centre));
   }

@@ -82,7 +82,7 @@ class Parts {
   }
 
   static double side_of(const Layout& at, const Point2& p, std::span<const CurvePiece> pieces) {
-    constexpr double kTied = 1e-9, kOnTheLine = 1e-12;
+    constexpr double kAsNear = 1e-9, kOnTheLine = 1e-12;
     double nearest = kUnreached, side = 0;
     const double size = (at[1] - at[0]).norm() + (at[2] - at[0]).norm();
     for (const CurvePiece& piece : pieces) {
@@ -91,8 +91,8 @@ class Parts {
       if (!(length > 0)) continue;
       const double t = std::clamp(along.dot(p - from) / (length * length), 0.0, 1.0);
       const double distance = (p - from - t * along).norm();
-      if (distance > nearest + kTied * size) continue;
-      if (distance < nearest - kTied * size) side = 0;
+      if (distance > nearest + kAsNear * size) continue;
+      if (distance < nearest - kAsNear * size) side = 0;
       nearest = std::min(nearest, distance);
       side += cross(along, p - from) / length;
     }

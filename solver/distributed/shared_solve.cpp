@@ -29,7 +29,7 @@ constexpr int kMaxRings = 64;
 constexpr int kRingsOfWaves = 6;
 /// Of waves, in mean edges: half of a bucket of the front in one process. In wider ones fits see
 /// more old values, and errors on good planes are five times as large; narrower ones gain nothing.
-constexpr double kBand = 0.25;
+constexpr double kWaveBand = 0.25;
 
 /// Distances of own vertices to those who have their share of the file.
 void hand_over(const RankGroup& ranks, const MeshPart& part, const std::vector<double>& distances,
@@ -178,7 +178,7 @@ Result<SharedAnswer> solve_over_ranks(const RankGroup& ranks, const std::string&
   if (!is_heat) {
     out.set_up_ms = lap();
     const auto waves =
-        wave_over_ranks(ranks, part, *blocks, *is_source, kBand * components.mean_edge);
+        wave_over_ranks(ranks, part, *blocks, *is_source, kWaveBand * components.mean_edge);
     if (!waves) return waves.error();
     out.quality = waves->quality;
     const auto distances = distances_of(task, waves->distances, out.quality);
@@ -194,7 +194,7 @@ Result<SharedAnswer> solve_over_ranks(const RankGroup& ranks, const std::string&
   double waves_ms = 0;
   if (check && rules.flip) {
     lap();
-    waves = wave_over_ranks(ranks, part, *blocks, *is_source, kBand * components.mean_edge);
+    waves = wave_over_ranks(ranks, part, *blocks, *is_source, kWaveBand * components.mean_edge);
     waves_ms = lap();
     release_freed_memory();  // of which factors would leave holes
   }

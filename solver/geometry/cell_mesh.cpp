@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "solver/geometry/cell_mesh.h"
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
+#include <limits>
 #include <numeric>
 
 #include "solver/core/parallel.h"
@@ -190,6 +192,18 @@ class CellMeshBuilder {
 };
 
 }  // namespace
+
+Eigen::Matrix3d inverse_along(const Eigen::Matrix3d& square) {
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(square);
+  const Vec3& sizes = axes.eigenvalues();  // ascending
+  const double rounded = 3 * std::numeric_limits<double>::epsilon() * sizes[2];
+  Eigen::Matrix3d out = Eigen::Matrix3d::Zero();
+  for (int i = 0; i < 3; ++i) {
+    const Vec3 axis = axes.eigenvectors().col(i);
+    if (sizes[i] > rounded) out += axis * axis.transpose() / sizes[i];
+  }
+  return out;
+}
 
 void name_components(const Components& parts, std::span<const Index> order, Components& out) {
   out.count = parts.count;

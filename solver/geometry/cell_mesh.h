@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <Eigen/Core>
 #include <cstdint>
 #include <memory>
 #include <span>
@@ -36,6 +37,10 @@ class CellTable {
   std::vector<std::uint32_t> start_;
   RawVector<Index> cell_;
 };
+
+/// The inverse (Moore, Penrose) of the symmetric product G' G of gradients, along those directions
+/// in which it is not 0.
+Eigen::Matrix3d inverse_along(const Eigen::Matrix3d& square);
 
 /// The vertices that cells use, and which of them share one: the pattern of every matrix.
 struct CellPattern {

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <Eigen/Core>
 #include <Eigen/Geometry>
-#include <Eigen/QR>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -13,6 +12,7 @@
 
 #include "geotherm/domains.h"
 #include "solver/core/text.h"
+#include "solver/geometry/cell_mesh.h"
 
 namespace geotherm {
 namespace {
@@ -57,7 +57,7 @@ Vec3 virtual_vertex(std::span<const Vec3> corners) {
     square += across;
     right += across * corners[i];
   }
-  return square.completeOrthogonalDecomposition().solve(right);
+  return inverse_along(square) * right;
 }
 
 /// What a face gives its corners: a cell for each triangle at its virtual vertex. The vertex's

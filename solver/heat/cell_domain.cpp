@@ -3,7 +3,6 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -252,14 +251,15 @@ std::vector<Vec3> CellDomain::corner_places(Index cell) const {
     return out;
   }
   const int d = mesh->dimension;
-  using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-  const Eigen::Map<const Rows> gradients(mesh->gradients_of(cell), std::ssize(corners), d);
-  const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 3, 3> square =
-      gradients.transpose() * gradients;
-  const Rows places = gradients * square.completeOrthogonalDecomposition().pseudoInverse();
-  for (std::size_t k = 0; k < out.size(); ++k) {
-    out[k].head(d) = places.row(static_cast<Eigen::Index>(k));
+  Eigen::Matrix3d square = Eigen::Matrix3d::Zero();
+  const double* gradient = mesh->gradients_of(cell);
+  for (Vec3& place : out) {
+    std::copy_n(gradient, d, place.data());
+    square += place * place.transpose();
+    gradient += d;
   }
+  const Eigen::Matrix3d inverse = inverse_along(square);
+  for (Vec3& place : out) place = inverse * place;
   return out;
 }
 

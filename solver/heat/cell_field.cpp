@@ -2,7 +2,6 @@
 #include "solver/heat/cell_field.h"
 
 #include <Eigen/LU>
-#include <Eigen/QR>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -60,7 +59,7 @@ CellField::Square CellField::inverse_square(Index cell) const {
   Eigen::Map<Eigen::Matrix3d>(out.data()) =
       std::abs(square.determinant()) > kThin * mean * mean * mean
           ? Eigen::Matrix3d(square.inverse())
-          : Eigen::Matrix3d(square.completeOrthogonalDecomposition().pseudoInverse());
+          : inverse_along(square);
   return out;
 }
 

@@ -58,9 +58,9 @@ void add_divergence(const Face& face, const FaceLayout& p, const Field& x, Block
 
 /// The largest and the smallest logarithm of each component and column. Comparisons are false for
 /// what is no number, the logarithm of 0 and below.
-class Spread {
+class LogRange {
  public:
-  Spread(const Components& components, Eigen::Index columns)
+  LogRange(const Components& components, Eigen::Index columns)
       : components_(components),
         high_(Block::Constant(components.count, columns, -kUnreached)),
         low_(-high_) {
@@ -86,7 +86,7 @@ class Spread {
       widen(components_.of[static_cast<std::size_t>(begin + e / columns)], e % columns, log_u[e]);
     }
   }
-  void take(Spread& other) {
+  void take(LogRange& other) {
     high_ = high_.cwiseMax(other.high());
     low_ = low_.cwiseMin(other.low());
   }
@@ -143,10 +143,10 @@ FaceField::FaceField(const Surface& surface, const HeatField& heat, const PerCom
 void FaceField::take_logarithms(const PerComponent& t, std::span<const Extent> whole) {
   const Eigen::Index columns = log_u_.cols();
   const double step = std::log(heat_.step);
-  Spread all(mesh_.components, columns);
+  LogRange all(mesh_.components, columns);
   std::mutex mutex;
   work_.for_rows(log_u_.rows(), columns, [&](std::int64_t begin, std::int64_t end) {
-    Spread spread(mesh_.components, columns);
+    LogRange spread(mesh_.components, columns);
     // In pieces that stay in the nearest cache between their two passes.
     for (std::int64_t next = begin; begin < end; begin = next) {
       next = std::min(end, begin + kRowsOfPiece);
