@@ -107,9 +107,9 @@ BlockWaves::BlockWaves(const MeshBlock& block, const WaveSurface& surface)
 Index BlockWaves::find(const EdgeName& name) const {
   const auto key = std::pair(name.low, name.high);
   const auto ends = [](const NamedEdge& each) { return std::pair(each.name.low, each.name.high); };
-  const auto found = std::ranges::equal_range(edges_, key, {}, ends);
-  for (const NamedEdge& each : found) {
-    if (is_same(each.name, name)) return each.edge;
+  auto at = std::ranges::lower_bound(edges_, key, {}, ends);
+  for (; at != edges_.end() && ends(*at) == key; ++at) {
+    if (is_same(at->name, name)) return at->edge;
   }
   return kNoIndex;
 }
@@ -167,7 +167,7 @@ void BlockWaves::name_edges(const MeshPart& part) {
     return std::tuple(each.name.low, each.name.high, each.name.length, each.edge);
   });
   const auto same_edge = [](const NamedEdge& a, const NamedEdge& b) { return a.edge == b.edge; };
-  all.erase(std::ranges::unique(all, same_edge).begin(), all.end());
+  all.erase(std::unique(all.begin(), all.end(), same_edge), all.end());
   for (std::size_t i = 0; i < all.size(); ++i) {
     const bool before = i > 0 && is_same(all[i - 1].name, all[i].name);
     const bool after = i + 1 < all.size() && is_same(all[i].name, all[i + 1].name);

@@ -238,7 +238,7 @@ void add_edges(const MeshPart& part, SharedComponents& out) {
     }
   }
   std::ranges::sort(edges);
-  edges.erase(std::ranges::unique(edges).begin(), edges.end());
+  edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
   for (const auto& [a, b] : edges) {
     ComponentSize& size = out.sizes[out.of[a]];
     size.mean_edge += safe_norm(part.positions[a] - part.positions[b]);

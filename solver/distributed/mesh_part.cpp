@@ -129,7 +129,7 @@ void rename_corners(const RankGroup& ranks, const MeshPart& part, std::vector<Gl
   asked.reserve(3 * faces.size());
   for (const GlobalFace& face : faces) asked.insert(asked.end(), face.begin(), face.end());
   std::ranges::sort(asked);
-  asked.erase(std::ranges::unique(asked).begin(), asked.end());
+  asked.erase(std::unique(asked.begin(), asked.end()), asked.end());
   PerRank<GlobalIndex> questions(static_cast<std::size_t>(count));
   for (const GlobalIndex id : asked) questions[holder(id)].push_back(id);
   PerRank<GlobalIndex> answers = ranks.swap(questions);
@@ -273,7 +273,7 @@ void grow_halo(const RankGroup& ranks, int rings, MeshPart& part) {
         }
       }
       std::ranges::sort(faces);
-      faces.erase(std::ranges::unique(faces).begin(), faces.end());
+      faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
       auto& out = answers.emplace_back();
       for (const Index f : faces) {
         const Face& face = part.corners[f];
@@ -296,7 +296,10 @@ void grow_halo(const RankGroup& ranks, int rings, MeshPart& part) {
       return face;
     };
     std::ranges::sort(found, {}, sorted);
-    found.erase(std::ranges::unique(found, {}, sorted).begin(), found.end());
+    const auto same = [&](const GlobalFace& a, const GlobalFace& b) {
+      return sorted(a) == sorted(b);
+    };
+    found.erase(std::unique(found.begin(), found.end(), same), found.end());
     add_faces(ranks, found, part);
     part.ring_begin.push_back(part.size());
   }

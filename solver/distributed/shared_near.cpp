@@ -30,7 +30,8 @@ NearFaces faces_within(const SharedTask& task, std::span<const MeshBlock> blocks
       if (row == kNoIndex || !is_near(block.vertex[here])) continue;
       const OperatorMesh& mesh = *block.surface->operators;
       const double unit = block.surface->unit;
-      for (const Index f : mesh.faces_at(row)) {
+      for (const Side corner : mesh.corners.at(row)) {
+        const Index f = face_of(corner);
         NearFace& face = out.emplace_back();
         for (int k = 0; k < 3; ++k) face.corners[k] = part.id[block.part_vertex(mesh.faces[f][k])];
         const FaceLayout& at = mesh.layout[f];

@@ -24,7 +24,7 @@ double count_duplicates(const MeshPart& part) {
   }
   std::ranges::sort(faces);
   return static_cast<double>(std::ssize(faces) -
-                             (std::ranges::unique(faces).begin() - faces.begin()));
+                             (std::unique(faces.begin(), faces.end()) - faces.begin()));
 }
 
 struct NeedCounts {

@@ -77,7 +77,7 @@ class TurnedFaces {
 /// The positions of a face's corners in their cyclic order, the least by coordinates first.
 std::array<Vec3, 3> from_least(std::span<const Vec3> positions, const Face& face) {
   std::array<Vec3, 3> out = {positions[face[0]], positions[face[1]], positions[face[2]]};
-  std::ranges::rotate(out, std::ranges::min_element(out, less));
+  std::rotate(out.begin(), std::ranges::min_element(out, less), out.end());
   return out;
 }
 

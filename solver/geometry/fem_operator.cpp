@@ -185,8 +185,8 @@ void FemOperator::list_row(Index i, std::vector<Index>& columns,
 }
 
 void FemOperator::list_neighbors(Index i, std::vector<Index>& rows) const {
-  for (const Index f : mesh_->faces_at(i)) {
-    for (const Index j : mesh_->faces[f]) rows.push_back(j);
+  for (const Side corner : mesh_->corners.at(i)) {
+    for (const Index j : mesh_->faces[face_of(corner)]) rows.push_back(j);
   }
 }
 

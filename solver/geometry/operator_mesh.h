@@ -4,7 +4,6 @@
 #include <array>
 #include <functional>
 #include <memory>
-#include <ranges>
 #include <span>
 #include <vector>
 
@@ -50,10 +49,6 @@ struct OperatorMesh {
 
   CornerTable corners;  ///< of `faces`
 
-  /// Faces at a vertex, ascending; one that visits it twice stands twice.
-  auto faces_at(Index i) const {
-    return corners.at(i) | std::views::transform([](Side corner) { return face_of(corner); });
-  }
   bool is_doubled(Index component) const { return doubled[static_cast<std::size_t>(component)]; }
   Index size() const { return static_cast<Index>(mass.size()); }
   Index face_count() const { return static_cast<Index>(faces.size()); }

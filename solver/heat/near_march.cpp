@@ -111,7 +111,7 @@ std::vector<NearDistance> march_over(std::span<const NearFace> near,
   for (const NearFace& face : near)
     numbers.insert(numbers.end(), face.corners.begin(), face.corners.end());
   std::ranges::sort(numbers);
-  numbers.erase(std::ranges::unique(numbers).begin(), numbers.end());
+  numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
   const auto here = [&](std::int64_t number) {
     return static_cast<Index>(std::ranges::lower_bound(numbers, number) - numbers.begin());
   };
@@ -155,7 +155,8 @@ std::vector<NearDistance> march_nearest(const CornerTable& corners, std::span<co
   for (const NearDistance& seed : seeds)
     lower(reached.at(static_cast<Index>(seed.vertex)), seed.distance);
   while (!waiting.empty() && out.size() < count) {
-    const auto [distance, vertex] = waiting.top();
+    const double distance = waiting.top().first;
+    const Index vertex = waiting.top().second;
     waiting.pop();
     if (std::exchange(reached.at(vertex).done, true)) continue;
     out.push_back({vertex, distance});

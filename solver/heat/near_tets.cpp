@@ -55,7 +55,8 @@ class NearTets {
   /// those of tets at these places.
   std::vector<NearCell> cells() const {
     std::vector<NearCell> out;
-    for (const auto& [row, unused] : lines_) {
+    for (const auto& line : lines_) {
+      const Index row = line.first;
       for (const Index cell : mesh_.cells_at.at(row)) {
         const auto corners = mesh_.corners_of(cell);
         const bool whole = std::ranges::all_of(

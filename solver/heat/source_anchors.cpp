@@ -185,7 +185,8 @@ class Placer {
   Index face_number(Index intrinsic_face) const {
     const OperatorMesh& mesh = *surface_.operators;
     const Index first = surface_.row_of_vertex[surface_.intrinsic.faces[intrinsic_face][0]];
-    for (const Index f : mesh.faces_at(first)) {
+    for (const Side corner : mesh.corners.at(first)) {
+      const Index f = face_of(corner);
       if (mesh.intrinsic_face[f] == intrinsic_face) return f;
     }
     return kNoIndex;
@@ -221,7 +222,7 @@ class Placer {
     for (const auto& [row, anchor] : anchors_) {
       near_[row] = anchor.offset;
       if (anchor.offset > 0) continue;
-      for (const Index f : mesh.faces_at(row)) touched_.insert(f);
+      for (const Side corner : mesh.corners.at(row)) touched_.insert(face_of(corner));
     }
     for (const Index f : touched_) {
       const Face& face = mesh.faces[f];

@@ -114,7 +114,7 @@ void WaveFront::hear(std::span<const Heard> vertices, std::span<const Heard> edg
 void WaveFront::wake() {
   for (auto& [key, edge] : keys_) key = key_of(edge);
   std::ranges::sort(keys_);
-  keys_.erase(std::ranges::unique(keys_).begin(), keys_.end());
+  keys_.erase(std::unique(keys_.begin(), keys_.end()), keys_.end());
   for (const auto& [key, edge] : keys_) {
     if (key < kUnreached) ring_.add(pass_, key, edge);
   }
