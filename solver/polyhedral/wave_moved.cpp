@@ -134,6 +134,8 @@ WaveTables moved_wave_tables(const WaveTables& earlier, const WaveSurface& befor
       threads, std::ssize(tables.faces), [&](std::int64_t begin, std::int64_t end) {
         SideLengths lengths;
         for (std::int64_t i = begin; i < end; ++i) {
+          const Index ahead = tables.intrinsic_face[std::min(i + kFetchedAhead, end - 1)];
+          __builtin_prefetch(&surface.base.intrinsic.lengths[ahead]);
           WaveFace& face = tables.faces[i];
           if (carrier.changed()[i] == 0) {
             const WaveFace& old = earlier.faces[i];

@@ -134,6 +134,7 @@ class SideJoiner {
                                  std::int64_t end) const {
     std::vector<Index> turned;
     for (std::int64_t edge = begin; edge < end; ++edge) {
+      fetch_faces_of(std::min(edge + kFetchedAhead, end - 1));
       const auto [first, second] = tables_.sides[edge];
       const bool stays = second < 0
                              ? second == kNoSideCode
@@ -142,6 +143,12 @@ class SideJoiner {
       if (!stays) turned.push_back(static_cast<Index>(edge));
     }
     return turned;
+  }
+
+  void fetch_faces_of(std::int64_t edge) const {
+    const auto [first, second] = tables_.sides[edge];
+    __builtin_prefetch(&tables_.faces[face_of_code(first)].vertex);
+    if (second >= 0) __builtin_prefetch(&tables_.faces[face_of_code(second)].vertex);
   }
 
   void join_pair(Side side) {

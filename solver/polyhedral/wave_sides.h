@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -9,6 +10,11 @@
 
 // The sides of WaveTables, once its faces have corners and edges.
 namespace geotherm {
+
+/// How many faces or edges before it is their turn they are fetched from memory: in the order of a
+/// pass over the tables those of the mesh lie apart, and waiting for them would be most of the
+/// time.
+inline constexpr std::int64_t kFetchedAhead = 16;
 
 /// Of a block of faces, in units of the intrinsic mesh.
 struct SideLengths {
