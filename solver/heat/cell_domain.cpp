@@ -99,13 +99,19 @@ class CellInput final : public Domain::Input {
     out->given = cells_;
     out->findings = cells_->notes;
     out->input = std::make_shared<const CellInput>(cells_);
-    const CellPattern pattern = pattern_of_cells(*cells_, threads);
+    out->unit = std::accumulate(cells_->widths.begin(), cells_->widths.end(), 0.0) /
+                static_cast<double>(cells_->cell_count());
+    auto flipped = flip_polygons(*cells_, out->unit, threads, progress);
+    if (!flipped) return flipped.error();
+    out->flipped = *std::move(flipped);
+    const CellComplex& cells = out->cells();
+    const CellPattern pattern = pattern_of_cells(cells, threads);
     out->timing.operators = watch.lap();
 
     if (!report(progress, "analyze", kCellsAnalyzedFrom)) return cancelled_error();
     std::vector<Vec3> places;
-    if (!cells_->positions.empty()) {
-      for (const Index v : pattern.vertices) places.push_back(cells_->positions[v]);
+    if (!cells.positions.empty()) {
+      for (const Index v : pattern.vertices) places.push_back(cells.positions[v]);
     }
     auto analysis = backend.analyze(pattern.pattern, places, threads);
     if (!analysis) return analysis.error();
@@ -113,13 +119,11 @@ class CellInput final : public Domain::Input {
     out->timing.analyze = watch.lap();
 
     if (!report(progress, "operators", kCellsAnalyzedTo)) return cancelled_error();
-    out->unit = std::accumulate(cells_->widths.begin(), cells_->widths.end(), 0.0) /
-                static_cast<double>(cells_->cell_count());
     const std::span<const Index> order = out->analysis->order();
     const bool has_border =
         std::ranges::count(cells_->on_boundary, 0) != std::ssize(cells_->on_boundary);
     if (cells_->dimension == 3 && has_border) out->auto_boundary = BoundaryRule::kAverage;
-    out->mesh = build_cell_mesh(*cells_, pattern, order, out->unit, threads);
+    out->mesh = build_cell_mesh(cells, pattern, order, out->unit, threads);
     number_rows(pattern, order, *out);
     out->components = measure_cells(*out->mesh);
     if (out->mesh->is_of_tets && !cells_->positions.empty() && cells_->lengths_are_straight) {
@@ -132,13 +136,14 @@ class CellInput final : public Domain::Input {
  private:
   void number_rows(const CellPattern& pattern, std::span<const Index> order,
                    CellDomain& out) const {
+    const std::vector<char>& on_boundary = out.cells().on_boundary;
     out.input_vertices = cells_->vertices;
-    out.row_of_vertex.assign(static_cast<std::size_t>(cells_->vertices), kNoIndex);
+    out.row_of_vertex.assign(static_cast<std::size_t>(out.cells().vertices), kNoIndex);
     for (std::size_t k = 0; k < order.size(); ++k) {
       const Index vertex = pattern.vertices[order[k]];
       out.vertex_of_row.push_back(vertex);
       out.row_of_vertex[vertex] = static_cast<Index>(k);
-      out.on_boundary.push_back(cells_->on_boundary.empty() ? 0 : cells_->on_boundary[vertex]);
+      out.on_boundary.push_back(on_boundary.empty() ? 0 : on_boundary[vertex]);
     }
     out.cell_of_given.resize(out.mesh->given_cell.size());
     for (std::size_t c = 0; c < out.cell_of_given.size(); ++c) {
@@ -184,6 +189,35 @@ Result<void> check_cell_sources(const CellDomain& domain, const SourceSet& sourc
   return refuse_offsets(sources);
 }
 
+/// Weights of a polygon's corners and, last, of its virtual vertex, which put a point into that one
+/// of its triangles that it lies in, or nearest to.
+std::vector<double> fan_weights(std::span<const Vec3> corners, const Vec3& apex, const Vec3& at) {
+  double best = -kUnreached;
+  std::size_t found = 0;
+  std::array<double, 3> shares{0, 0, 1};
+  for (std::size_t k = 0; k < corners.size(); ++k) {
+    const std::array<Vec3, 3> to = {corners[k] - at, corners[(k + 1) % corners.size()] - at,
+                                    apex - at};
+    const Vec3 twice = (to[1] - to[0]).cross(to[2] - to[0]);
+    std::array<double, 3> here{};
+    for (std::size_t i = 0; i < 3; ++i) {
+      here[i] = to[(i + 1) % 3].cross(to[(i + 2) % 3]).dot(twice) / twice.squaredNorm();
+    }
+    const double least = std::ranges::min(here);
+    if (!(least > best)) continue;
+    best = least;
+    found = k;
+    shares = here;
+  }
+  double sum = 0;
+  for (double& share : shares) sum += share = std::max(share, 0.0);
+  std::vector<double> out(corners.size() + 1, 0.0);
+  out[found] = shares[0] / sum;
+  out[(found + 1) % corners.size()] = shares[1] / sum;
+  out.back() = shares[2] / sum;
+  return out;
+}
+
 /// Turns sources into anchors.
 class CellPlacer {
  public:
@@ -192,16 +226,23 @@ class CellPlacer {
   void add_vertex(Index vertex) { anchors_.add_vertex(domain_.row_of_vertex[vertex]); }
 
   void add_point(const CellPoint& point) {
-    const Index cell = domain_.cell_of_given[domain_.find_cell(point.cell)];
-    const auto corners = mesh_.corners_of(cell);
-    const std::vector<Vec3> places = domain_.corner_places(cell);
+    const Index cell = domain_.find_cell(point.cell);
+    std::vector<Index> rows = domain_.rows_of_given(cell);
+    std::vector<Vec3> places = domain_.corner_places(cell);
+    std::vector<double> weights(point.weights.begin(), point.weights.end());
     Vec3 at = Vec3::Zero();
-    for (std::size_t k = 0; k < corners.size(); ++k) {
-      if (point.weights[k] == 1) return add_vertex(domain_.vertex_of_row[corners[k]]);
-      at += point.weights[k] * places[k];
+    for (std::size_t k = 0; k < rows.size(); ++k) {
+      if (weights[k] == 1) return add_vertex(domain_.vertex_of_row[rows[k]]);
+      at += weights[k] * places[k];
     }
-    for (std::size_t k = 0; k < corners.size(); ++k) {
-      anchors_.add_corner(corners[k], (places[k] - at).norm(), point.weights[k]);
+    if (const Index row = domain_.virtual_row(cell); row != kNoIndex) {
+      const Vec3 apex = (domain_.place_of(row) - domain_.place_of(rows.front())) / domain_.unit;
+      weights = fan_weights(places, apex, at);
+      places.push_back(apex);
+      rows.push_back(row);
+    }
+    for (std::size_t k = 0; k < rows.size(); ++k) {
+      anchors_.add_corner(rows[k], (places[k] - at).norm(), weights[k]);
     }
   }
 
@@ -240,19 +281,44 @@ Index CellDomain::find_cell(Index number) const {
   return at != numbers.end() && *at == number ? static_cast<Index>(at - numbers.begin()) : kNoIndex;
 }
 
+std::vector<Index> CellDomain::rows_of_given(Index cell) const {
+  const auto corners = given->corners_of(cell);
+  std::vector<Index> rows(corners.size());
+  std::ranges::transform(corners, rows.begin(), [this](Index v) { return row_of_vertex[v]; });
+  return rows;
+}
+
+Index CellDomain::virtual_row(Index cell) const {
+  const Index vertex = flipped ? flipped->virtual_of_cell[cell] : kNoIndex;
+  return vertex == kNoIndex ? kNoIndex : row_of_vertex[vertex];
+}
+
+double CellDomain::length_within(Index cell, Index row, Index to) const {
+  const Index triangle = flipped ? flipped->triangle_of_cell[mesh->given_cell[cell]] : kNoIndex;
+  if (triangle == kNoIndex || row == to) return (place_of(to) - place_of(row)).norm() / unit;
+  const Face& corners = flipped->triangles[triangle];
+  double least = kUnreached;
+  for (int k = 0; k < 3; ++k) {
+    const Index a = row_of_vertex[corners[k]], b = row_of_vertex[corners[next_corner(k)]];
+    const bool joins = (a == row && b == to) || (a == to && b == row);
+    if (joins) least = std::min(least, flipped->lengths[triangle][k]);
+  }
+  return least;
+}
+
 std::vector<Vec3> CellDomain::corner_places(Index cell) const {
-  const auto corners = mesh->corners_of(cell);
+  const auto corners = given->corners_of(cell);
   std::vector<Vec3> out(corners.size(), Vec3::Zero());
   if (!given->positions.empty() && given->lengths_are_straight) {
-    const Vec3 first = given->positions[vertex_of_row[corners.front()]];
+    const Vec3& first = given->positions[corners.front()];
     for (std::size_t k = 0; k < out.size(); ++k) {
-      out[k] = (given->positions[vertex_of_row[corners[k]]] - first) / unit;
+      out[k] = (given->positions[corners[k]] - first) / unit;
     }
     return out;
   }
   const int d = mesh->dimension;
   Eigen::Matrix3d square = Eigen::Matrix3d::Zero();
-  const double* gradient = mesh->gradients_of(cell);
+  const double* gradient = mesh->gradients_of(cell_of_given[cell]);
   for (Vec3& place : out) {
     std::copy_n(gradient, d, place.data());
     square += place * place.transpose();

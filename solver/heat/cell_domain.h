@@ -7,6 +7,7 @@
 
 #include "geotherm/domains.h"
 #include "solver/geometry/cell_mesh.h"
+#include "solver/geometry/polygon_flips.h"
 #include "solver/heat/domain.h"
 
 namespace geotherm {
@@ -14,8 +15,20 @@ namespace geotherm {
 /// A CellComplex made ready for the heat method.
 struct CellDomain final : Domain {
   std::shared_ptr<const CellComplex> given;
+  /// Polygons whose triangles were flipped; null elsewhere.
+  std::shared_ptr<const FlippedPolygons> flipped;
   std::shared_ptr<const CellMesh> mesh;
   std::vector<Index> cell_of_given;  ///< C: number of each given cell in `mesh`
+
+  /// What `mesh` was made of: as many cells, with the same numbers, as were given. Vertices from
+  /// `input_vertices` on are virtual ones, which no answer shows.
+  const CellComplex& cells() const { return flipped ? flipped->cells : *given; }
+  /// The rows of the corners that a given cell has for sources.
+  std::vector<Index> rows_of_given(Index cell) const;
+  /// The row of the virtual vertex of a given cell; kNoIndex where it has none.
+  Index virtual_row(Index cell) const;
+  /// Where a row lies, model units. Precondition: the complex has positions.
+  const Vec3& place_of(Index row) const { return cells().positions[vertex_of_row[row]]; }
 
   /// The given cell that sources call by this number; kNoIndex: there is none.
   Index find_cell(Index number) const;
@@ -35,9 +48,13 @@ struct CellDomain final : Domain {
   void check_straight_lines(const SourceSet& sources, BelowLine below, int threads,
                             DistanceResult& result) const override;
 
-  /// Where the corners of a cell lie, up to a shift: their positions, in units of the domain, or
-  /// without such where the linear functions are that have the cell's gradients, in its frame (the
-  /// pseudo-inverse of G).
+  /// From one corner of a cell of `mesh` to another: within a triangle that was flipped, else
+  /// straight. In units of the domain. Precondition: the complex has positions.
+  double length_within(Index cell, Index row, Index to) const;
+
+  /// Where the corners of a given cell lie, up to a shift: their positions, in units of the domain,
+  /// or without such where the linear functions are that have the cell's gradients, in its frame
+  /// (the pseudo-inverse of G).
   std::vector<Vec3> corner_places(Index cell) const;
 };
 

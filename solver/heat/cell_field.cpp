@@ -177,7 +177,8 @@ void CellField::put_known(Index cell, std::span<const double> distances, Eigen::
   }
 }
 
-/// In two dimensions those are the cells that touch a source at a vertex, and straight lines.
+/// In two dimensions those are the cells that touch a source at a vertex, and straight lines:
+/// within a triangle that was flipped, which need not lie in space, else between positions.
 void CellField::put_near(const SourceAnchors& anchors, Eigen::Index column, Block& b) const {
   const CellMesh& mesh = *domain_.mesh;
   for (const NearCell& near : near_tets(domain_, anchors)) {
@@ -185,7 +186,6 @@ void CellField::put_near(const SourceAnchors& anchors, Eigen::Index column, Bloc
   }
   const CellComplex& given = *domain_.given;
   if (mesh.dimension != 2 || given.positions.empty() || !given.lengths_are_straight) return;
-  const auto place = [&](Index row) { return given.positions[domain_.vertex_of_row[row]]; };
   std::map<Index, std::vector<double>> distances;  // of each cell
   for (const auto& anchor : anchors.anchors) {
     if (anchor.offset > 0) continue;
@@ -194,8 +194,7 @@ void CellField::put_near(const SourceAnchors& anchors, Eigen::Index column, Bloc
       std::vector<double>& of = distances[cell];
       of.resize(corners.size(), kUnreached);
       for (std::size_t k = 0; k < corners.size(); ++k) {
-        const Vec3 line = place(corners[k]) - place(anchor.row);
-        of[k] = std::min(of[k], line.norm() / domain_.unit);
+        of[k] = std::min(of[k], domain_.length_within(cell, anchor.row, corners[k]));
       }
     }
   }
@@ -226,19 +225,20 @@ Block CellField::divergence(std::span<const SourceAnchors> anchors) const {
   return b;
 }
 
-/// Cells that share a number, as the triangles of a polygon do, follow each other and are one cell
-/// of what was given: it has a direction where one of them has.
+/// Cells that share a number, as the triangles of a polygon do, are one cell of what was given: it
+/// has a direction where one of them has.
 CellCounts CellField::inspect(std::span<const double> phi, Eigen::Index column,
                               const SourceAnchors& anchors, std::span<const char> held_at_zero,
                               int threads, Quality& quality) const {
   const CellMesh& mesh = *domain_.mesh;
   const Inspection inspection(mesh.components, phi.size(), anchors, held_at_zero);
   const std::vector<Index>& numbers = domain_.given->numbers;
-  const auto goes_on = [&](Index c) {
-    return c > 0 && c < mesh.cell_count() && !numbers.empty() &&
-           numbers[mesh.given_cell[c]] == numbers[mesh.given_cell[c - 1]];
+  const auto goes_on = [&](Index given) {
+    return given > 0 && given < mesh.cell_count() && !numbers.empty() &&
+           numbers[given] == numbers[given - 1];
   };
-  const auto has_direction = [&](Index c) {
+  const auto has_direction = [&](Index given) {
+    const Index c = domain_.cell_of_given[given];
     return of_cell(c, inverse_square(c), column) != Direction{};
   };
   Sums all;
@@ -248,11 +248,18 @@ CellCounts CellField::inspect(std::span<const double> phi, Eigen::Index column,
          for (auto c = static_cast<Index>(begin); c < static_cast<Index>(end); ++c) {
            const auto corners = mesh.corners_of(c);
            if (!inspection.reaches(corners)) continue;
-           if (!goes_on(c)) {
-             bool found = has_direction(c);
-             for (Index next = c + 1; !found && goes_on(next); ++next) found = has_direction(next);
-             inspection.count(corners, found, sum);
+           if (const Index given = mesh.given_cell[c]; !goes_on(given)) {
+             bool found = has_direction(given);
+             for (Index next = given + 1; !found && goes_on(next); ++next) {
+               found = has_direction(next);
+             }
+             if (domain_.flipped) {
+               inspection.count(domain_.rows_of_given(given), found, sum);
+             } else {
+               inspection.count(corners, found, sum);
+             }
            }
+           if (corners.size() < 2) continue;  // a triangle all of whose corners are one vertex
            const double slope =
                norm(cell_gradient(mesh, c, [&](std::size_t k) { return phi[corners[k]]; }));
            inspection.add_slope(slope, mesh.measures[c], sum);

@@ -71,7 +71,8 @@ class FlippedFaces {
 };
 
 /// The triangles between the sides and the virtual vertices of the faces at the sources of one
-/// component. Corners are numbered by rows, virtual vertices after them by faces.
+/// component, and those around them that were flipped. Corners are numbered by rows, virtual
+/// vertices that are no rows after them by faces.
 class NearPolygons {
  public:
   NearPolygons(const CellDomain& domain, const SourceAnchors& anchors, Index component)
@@ -94,7 +95,7 @@ class NearPolygons {
     out.are_all = true;
     FlippedFaces faces;
     std::vector<Index> rows;
-    std::unordered_set<Index> seen_rows, seen_faces;
+    std::unordered_set<Index> seen_rows, seen_faces, seen_triangles;
     const auto see = [&](Index row) {
       if (seen_rows.insert(row).second) rows.push_back(row);
     };
@@ -110,30 +111,45 @@ class NearPolygons {
       }
       for (const Index cell : mesh_.cells_at.at(rows[i])) {
         const Index given = mesh_.given_cell[cell];
+        if (const Index triangle = flipped_triangle(given); triangle != kNoIndex) {
+          if (!seen_triangles.insert(triangle).second) continue;
+          std::ranges::for_each(mesh_.corners_of(cell), see);
+          out.faces.push_back(near_face(triangle));
+          continue;
+        }
         if (!seen_faces.insert(given_.numbers[given]).second) continue;
         std::ranges::for_each(mesh_.corners_of(cell), see);
         add_face(given, mesh_.corners_of(cell), faces);
       }
     }
-    out.faces = faces.flip();
+    const std::vector<NearFace> made = faces.flip();
+    out.faces.insert(out.faces.end(), made.begin(), made.end());
     return out;
   }
 
  private:
-  Vec3 place_of(Index row) const {
-    return given_.positions[domain_.vertex_of_row[row]] / domain_.unit;
+  Vec3 place_of(Index row) const { return domain_.place_of(row) / domain_.unit; }
+  Index flipped_triangle(Index given) const {
+    return domain_.flipped ? domain_.flipped->triangle_of_cell[given] : kNoIndex;
+  }
+  NearFace near_face(Index triangle) const {
+    NearFace out{{}, lay_out(domain_.flipped->lengths[triangle])};
+    std::ranges::transform(domain_.flipped->triangles[triangle], out.corners.begin(),
+                           [this](Index v) { return domain_.row_of_vertex[v]; });
+    return out;
   }
   Vec3 virtual_vertex(Index given) const { return given_.virtual_vertices[given] / domain_.unit; }
   std::int64_t number_of_virtual(Index given) const {
     return domain_.size() + static_cast<std::int64_t>(given_.numbers[given]);
   }
 
-  /// The straight line to the virtual vertex of the face that a source is in.
+  /// The straight line to the virtual vertex of the face that a source is in, where that is no row.
   void add_virtual_vertex(const CellPoint& point, Index component) {
     const Index given = domain_.find_cell(point.cell);
-    const auto rows = mesh_.corners_of(domain_.cell_of_given[given]);
+    const std::vector<Index> rows = domain_.rows_of_given(given);
     const bool is_corner = std::ranges::find(point.weights, 1.0) != point.weights.end();
     if (mesh_.components.of[rows.front()] != component || is_corner || rows.size() == 3) return;
+    if (domain_.virtual_row(given) != kNoIndex) return;
     Vec3 place = Vec3::Zero();
     for (std::size_t k = 0; k < rows.size(); ++k) place += point.weights[k] * place_of(rows[k]);
     seeds_.push_back({number_of_virtual(given), (virtual_vertex(given) - place).norm()});
@@ -150,13 +166,9 @@ class NearPolygons {
     };
     if (rows.size() == 3) return add(rows[0], rows[1], rows[2], at[0], at[1], at[2]);
     const Vec3 apex = virtual_vertex(given);
-    Vec3 normal = Vec3::Zero();
-    for (std::size_t k = 0; k < at.size(); ++k) {
-      normal += (at[k] - apex).cross(at[(k + 1) % at.size()] - apex);
-    }
+    overlap_ |= !sees_all_sides(at, apex);
     for (std::size_t k = 0; k < at.size(); ++k) {
       const std::size_t next = (k + 1) % at.size();
-      overlap_ |= !(normal.dot((at[k] - apex).cross(at[next] - apex)) > 0);
       add(rows[k], rows[next], number_of_virtual(given), at[k], at[next], apex);
     }
   }
