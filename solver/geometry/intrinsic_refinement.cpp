@@ -181,7 +181,7 @@ Place find_circumcentre(const IntrinsicMesh& mesh, Index face) {
     }
     if (exit < 0) return {face, clipped_weights(at[0], at[1], at[2], target)};
     const Side side = 3 * face + exit, other = mesh.twin[side];
-    if (other == kNoSide) return {kNoIndex, {}, side};
+    if (other == kNoSide || other == side) return {kNoIndex, {}, side};
     const Point2 a = at[exit], b = at[next_corner(exit)];
     face = face_of(other);
     entry = corner_of(other);

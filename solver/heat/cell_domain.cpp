@@ -76,6 +76,18 @@ void follow_thickness(CellDomain& domain) {
   }
 }
 
+/// Of polygons that were flipped the cells say how large they are before they were refined.
+void resolve_refined(CellDomain& domain) {
+  const FlippedPolygons& flipped = *domain.flipped;
+  for (Index v = 0; v < domain.input_vertices; ++v) {
+    const Index row = domain.row_of_vertex[v], part = flipped.parts.of[v];
+    if (row == kNoIndex) continue;
+    ComponentSize& size = domain.components[domain.mesh->components.of[row]];
+    size.mean_edge = flipped.mean_width[part];
+    size.grading = flipped.grading[part];
+  }
+}
+
 class CellInput final : public Domain::Input {
  public:
   explicit CellInput(std::shared_ptr<const CellComplex> cells) : cells_(std::move(cells)) {}
@@ -126,6 +138,7 @@ class CellInput final : public Domain::Input {
     out->mesh = build_cell_mesh(cells, pattern, order, out->unit, threads);
     number_rows(pattern, order, *out);
     out->components = measure_cells(*out->mesh);
+    if (out->flipped) resolve_refined(*out);
     if (out->mesh->is_of_tets && !cells_->positions.empty() && cells_->lengths_are_straight) {
       follow_thickness(*out);
     }

@@ -18,10 +18,10 @@ struct CellDomain final : Domain {
   /// Polygons whose triangles were flipped; null elsewhere.
   std::shared_ptr<const FlippedPolygons> flipped;
   std::shared_ptr<const CellMesh> mesh;
-  std::vector<Index> cell_of_given;  ///< C: number of each given cell in `mesh`
+  std::vector<Index> cell_of_given;  ///< number in `mesh` of each of cells()
 
-  /// What `mesh` was made of: as many cells, with the same numbers, as were given. Vertices from
-  /// `input_vertices` on are virtual ones, which no answer shows.
+  /// What `mesh` was made of: the cells that were given, or as many and then those that refinement
+  /// has made. Vertices from `input_vertices` on are in no answer.
   const CellComplex& cells() const { return flipped ? flipped->cells : *given; }
   /// The rows of the corners that a given cell has for sources.
   std::vector<Index> rows_of_given(Index cell) const;

@@ -234,7 +234,7 @@ CellCounts CellField::inspect(std::span<const double> phi, Eigen::Index column,
   const Inspection inspection(mesh.components, phi.size(), anchors, held_at_zero);
   const std::vector<Index>& numbers = domain_.given->numbers;
   const auto goes_on = [&](Index given) {
-    return given > 0 && given < mesh.cell_count() && !numbers.empty() &&
+    return given > 0 && given < domain_.given->cell_count() && !numbers.empty() &&
            numbers[given] == numbers[given - 1];
   };
   const auto has_direction = [&](Index given) {
@@ -248,7 +248,8 @@ CellCounts CellField::inspect(std::span<const double> phi, Eigen::Index column,
          for (auto c = static_cast<Index>(begin); c < static_cast<Index>(end); ++c) {
            const auto corners = mesh.corners_of(c);
            if (!inspection.reaches(corners)) continue;
-           if (const Index given = mesh.given_cell[c]; !goes_on(given)) {
+           const Index given = mesh.given_cell[c];
+           if (given < domain_.given->cell_count() && !goes_on(given)) {
              bool found = has_direction(given);
              for (Index next = given + 1; !found && goes_on(next); ++next) {
                found = has_direction(next);
