@@ -3,7 +3,6 @@
 
 #include <array>
 #include <memory>
-#include <span>
 #include <vector>
 
 #include "geotherm/domains.h"
@@ -12,10 +11,6 @@
 #include "solver/linear/symmetric_pattern.h"
 
 namespace geotherm {
-
-/// Whether the triangles between the sides of a face and its virtual vertex are the face: all are
-/// turned to the side that their sum is.
-bool sees_all_sides(std::span<const Vec3> corners, const Vec3& virtual_vertex);
 
 /// Polygons whose triangles at virtual vertices were flipped to Delaunay, and refined where they
 /// are too large for one diffusion time. A face that an edit touched has its virtual vertex as a
@@ -35,9 +30,10 @@ struct FlippedPolygons {
   std::vector<double> grading;         ///< of each part, Refinement::grading
 };
 
-/// Null where no edge has to be flipped, and for what are no polygons with virtual vertices. Left
-/// as they are: faces that do not see all their sides, have a side without length, or a triangle
-/// that is nearly flat, and edges that do not join two faces of one orientation. `progress` is
+/// Null where no edge has to be flipped, and for what are no polygons with virtual vertices. Parts
+/// with an edge that does not join two faces of one orientation are flipped as their tufted cover:
+/// each cell of theirs that is a triangle stands there twice, with half the area. Faces that have
+/// no triangles (PolygonFans) stay as they are. `progress` is
 /// asked as stage "operators". Errors: kCancelled. The same bits with any number of threads. Cost:
 /// O(corners + edits).
 Result<std::shared_ptr<const FlippedPolygons>> flip_polygons(const CellComplex& given, double unit,

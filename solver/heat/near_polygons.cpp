@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "solver/geometry/delaunay.h"
+#include "solver/geometry/polygon_fans.h"
 #include "solver/heat/cell_domain.h"
 #include "solver/heat/near_march.h"
 

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "geotherm/domains.h"
+#include "solver/geometry/intrinsic_mesh.h"
+#include "solver/linear/symmetric_pattern.h"
+
+namespace geotherm {
+
+/// Whether the triangles between the sides of a face and its virtual vertex are the face: all are
+/// turned to the side that their sum is.
+bool sees_all_sides(std::span<const Vec3> corners, const Vec3& virtual_vertex);
+
+/// The triangles at the virtual vertices of polygons as one intrinsic mesh, where they are the
+/// face: a face that does not see all its sides, has a side without length, or a triangle that is
+/// nearly flat has none. The virtual vertex of face i has the number V + i.
+struct PolygonFans {
+  std::vector<Index> first_cell;  ///< F + 1: the cells of face i are those from first_cell[i] on
+  std::vector<Index> first;       ///< F + 1: the triangles of face i, in the order of its cells
+  /// A side at a face that has no triangles, or at an edge that is no oriented manifold, is its own
+  /// twin: neither a flip nor a split passes it.
+  IntrinsicMesh mesh;
+  Components parts;                   ///< of the vertices that are in a cell
+  std::vector<char> is_not_manifold;  ///< of each part: it has an edge that is no such manifold
+  std::vector<Side> walls;            ///< sides at a face without triangles
+
+  Index face_count() const { return static_cast<Index>(first.size()) - 1; }
+  bool is_triangle(Index face) const { return first_cell[face + 1] - first_cell[face] == 1; }
+  bool has_triangles(Index face) const { return first[face + 1] > first[face]; }
+};
+
+/// Precondition: polygons with virtual vertices. Lengths are in units of `unit`. Cost: O(corners).
+PolygonFans build_fans(const CellComplex& given, double unit, int threads);
+
+/// The parts of the vertices, and which of these need a cover. Cost: O(corners).
+void find_parts(const CellComplex& given, PolygonFans& fans);
+
+/// Makes the tufted cover of the parts with an edge that is no oriented manifold. `places`: of the
+/// V and F vertices. Precondition: find_parts(), no flips. Cost: O(corners), nothing where there is
+/// no such part.
+void cover_fans(std::span<const Vec3> places, PolygonFans& fans, int threads);
+
+}  // namespace geotherm
