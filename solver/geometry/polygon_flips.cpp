@@ -6,6 +6,7 @@
 #include <span>
 #include <utility>
 
+#include "solver/core/sorting.h"
 #include "solver/geometry/delaunay.h"
 #include "solver/geometry/intrinsic_refinement.h"
 #include "solver/geometry/polygon_fans.h"
@@ -18,19 +19,36 @@ constexpr Index kFewInsertedInFans = 1000;
 
 double mean_side(const std::array<double, 3>& l) { return (l[0] + l[1] + l[2]) / 3; }
 
-/// Flips begin at edges whose cotangents have a sum below this: near to 0 the elimination of the
-/// virtual vertices does better. Chosen on the meshes of docs/domains.md.
+/// Triangles are flipped where the cotangents at an edge among them have a sum below this: near to
+/// 0 the elimination of the virtual vertices does better. Chosen on the meshes of docs/domains.md.
 constexpr double kFlipped = -0.6;
 
-std::vector<Side> sides_to_flip(const IntrinsicMesh& mesh, int threads) {
-  std::vector<Side> sides = non_delaunay_sides(mesh, threads);
-  std::erase_if(sides, [&mesh](Side side) {
-    const Side twin = mesh.twin[side];
-    return !(opposite_cotangent(mesh.lengths[face_of(side)], corner_of(side)) +
-                 opposite_cotangent(mesh.lengths[face_of(twin)], corner_of(twin)) <
-             kFlipped);
-  });
-  return sides;
+bool is_bad(const IntrinsicMesh& mesh, Side side) {
+  const Side twin = mesh.twin[side];
+  return opposite_cotangent(mesh.lengths[face_of(side)], corner_of(side)) +
+             opposite_cotangent(mesh.lengths[face_of(twin)], corner_of(twin)) <
+         kFlipped;
+}
+
+/// Triangles that flips join hang together, and are flipped where an edge of theirs is bad: which
+/// ones does not hang on the order of the flips.
+Result<std::vector<Edit>> flip_bad_regions(IntrinsicMesh& mesh, int threads,
+                                           const Progress& progress) {
+  const std::vector<Side> sides = non_delaunay_sides(mesh, threads);
+  IntrinsicMesh all = mesh;
+  const auto flips = flip_to_delaunay(all, sides, progress);
+  if (!flips) return flips.error();
+  DisjointSets regions(mesh.faces.size());
+  for (const Edit& flip : *flips) regions.join(flip.f, flip.g);
+  std::vector<char> is_bad_region(mesh.faces.size(), 0);
+  for (const Side side : sides) {
+    if (is_bad(mesh, side)) is_bad_region[regions.root(face_of(side))] = 1;
+  }
+  std::vector<Side> wanted = sides;
+  std::erase_if(wanted, [&](Side side) { return !is_bad_region[regions.root(face_of(side))]; });
+  if (wanted.size() < sides.size()) return flip_to_delaunay(mesh, std::move(wanted), progress);
+  mesh = std::move(all);
+  return flips;
 }
 
 /// Edits the triangles of polygons, and makes cells of what they are then. Inserted vertices have
@@ -42,7 +60,9 @@ class PolygonFlipper {
 
   /// Flips and refines; false where nothing has to be flipped.
   Result<bool> edit(const Progress& progress, FlippedPolygons& out) {
-    if (sides_to_flip(mesh_, threads_).empty()) return false;
+    const std::vector<Side> sides = non_delaunay_sides(mesh_, threads_);
+    const auto bad = [this](Side side) { return is_bad(mesh_, side); };
+    if (std::ranges::none_of(sides, bad)) return false;
     find_parts(given_, fans_);
     std::vector<Vec3> places = given_.positions;
     for (Index f = 0; f < fans_.face_count(); ++f) {
@@ -50,7 +70,7 @@ class PolygonFlipper {
     }
     cover_fans(places, fans_, threads_);
     first_split_ = mesh_.face_count();
-    auto flips = flip_to_delaunay(mesh_, sides_to_flip(mesh_, threads_), progress);
+    auto flips = flip_bad_regions(mesh_, threads_, progress);
     if (!flips) return flips.error();
     edits_ = std::move(*flips);
     out.parts = fans_.parts;
