@@ -78,11 +78,11 @@ Result<CellComplex> cells_of(const Graph& graph);
 
 /// A polygon mesh as a space of two dimensions: a face of k corners is the k triangles between its
 /// sides and a virtual vertex (Bunge, Herholz, Kazhdan, Botsch 2020), whose value is a mean of the
-/// corners': the one that is harmonic. Each triangle is a cell, with all corners of the face and
-/// its number in the mesh; a face of three corners is one. Left out are faces without area, with
-/// fewer than three corners or with one twice. Errors (kBadInput, with the number): a corner out of
-/// range, a coordinate that is not finite, a face with more than 256 corners, no face that can be
-/// used. Cost: one pass, 2 k^2 numbers and k^3 steps for a face of k corners.
+/// corners': the harmonic one. Each triangle is a cell, with all corners of the face and its number
+/// in the mesh; a face of three corners is one. HeatMethod flips those that are far from Delaunay.
+/// Left out are faces without area, with fewer than three corners or with one twice. Errors
+/// (kBadInput, with the number): a corner out of range, a coordinate that is not finite, over 256
+/// corners in a face, no face that can be used. Cost: 2 k^2 numbers, k^3 steps for k corners.
 Result<CellComplex> cells_of(const PolygonMesh& mesh);
 
 /// Samples in a box, such as the pixels of an image or the voxels of a scan. Its vertices are the
