@@ -131,7 +131,9 @@ std::vector<double> gradings(const IntrinsicMesh& mesh, const Components& parts,
   }
   std::vector<double> time(count);
   for (std::size_t c = 0; c < count; ++c) {
-    const double edge = part_edge[c] * ordinary[c].value() / all[c].value();
+    // A part may have no faces here, and none but long edges.
+    const bool is_known = ordinary[c].count > 0;
+    const double edge = part_edge[c] * (is_known ? ordinary[c].value() / all[c].value() : 1);
     time[c] = edge * edge;
   }
   std::vector<std::vector<FaceSize>> large(count);

@@ -30,8 +30,8 @@ bool is_bad(const IntrinsicMesh& mesh, Side side) {
          kFlipped;
 }
 
-/// Triangles that flips join hang together, and are flipped where an edge of theirs is bad: which
-/// ones does not hang on the order of the flips.
+/// Triangles that flips join form a region, which is flipped where an edge of its is bad: which
+/// ones are does not depend on the order of the flips.
 Result<std::vector<Edit>> flip_bad_regions(IntrinsicMesh& mesh, int threads,
                                            const Progress& progress) {
   const std::vector<Side> sides = non_delaunay_sides(mesh, threads);

@@ -33,9 +33,8 @@ struct FlippedPolygons {
 /// Null where no edge has to be flipped, and for what are no polygons with virtual vertices. Parts
 /// with an edge that does not join two faces of one orientation are flipped as their tufted cover:
 /// each cell of theirs that is a triangle stands there twice, with half the area. Faces that have
-/// no triangles (PolygonFans) stay as they are. `progress` is
-/// asked as stage "operators". Errors: kCancelled. The same bits with any number of threads. Cost:
-/// O(corners + edits).
+/// no triangles (PolygonFans) stay as they are. `progress` is asked as stage "operators". Errors:
+/// kCancelled. The same bits with any number of threads. Cost: O(corners + edits).
 Result<std::shared_ptr<const FlippedPolygons>> flip_polygons(const CellComplex& given, double unit,
                                                              int threads, const Progress& progress);
 
