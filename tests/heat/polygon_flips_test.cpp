@@ -281,12 +281,34 @@ TEST(FlippedPolygons, OfAnySoupAreFiniteOrRefused) {
     if (!cells) continue;
     const Index source = cells->corners.front();
     const auto method = HeatMethod::build(shared(std::move(cells)));
-    if (!method) continue;
+    ASSERT_TRUE(method) << round << ": " << method.error().message;
     const auto result = method->solve(SourceSet::of_vertices({source}));
-    if (!result) continue;
+    ASSERT_TRUE(result) << round << ": " << result.error().message;
     EXPECT_EQ(result->distances.size(), 20U);
     EXPECT_EQ(result->distances[source], 0);
     for (const double distance : result->distances) EXPECT_FALSE(std::isnan(distance)) << round;
+  }
+}
+
+TEST(FlippedPolygons, BesideAPartWithoutTrianglesKeepTheirTime) {
+  // A sliver has no triangle that could be flipped, and large faces of the other part are refined.
+  PolygonMesh mesh = bad_torus();
+  const auto alone = HeatMethod::build(shared(*cells_of(mesh)));
+  ASSERT_TRUE(alone);
+  const auto first = static_cast<Index>(mesh.positions.size());
+  for (const Vec3& p : {Vec3(5, 0, 0), Vec3(6, 0, 0), Vec3(5.5, 1e-7, 0)}) {
+    mesh.positions.push_back(p);
+  }
+  mesh.corners.insert(mesh.corners.end(), {first, first + 1, first + 2});
+  mesh.start.push_back(std::ssize(mesh.corners));
+  const auto method = HeatMethod::build(shared(*cells_of(mesh)));
+  ASSERT_TRUE(method) << method.error().message;
+  const SourceSet source = SourceSet::of_vertices({3});
+  const auto expected = alone->solve(source), result = method->solve(source);
+  ASSERT_TRUE(expected);
+  ASSERT_TRUE(result) << result.error().message;
+  for (Index v = 0; v < first; ++v) {
+    EXPECT_NEAR(result->distances[v], expected->distances[v], 1e-9) << v;
   }
 }
 
