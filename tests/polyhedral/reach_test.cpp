@@ -141,7 +141,7 @@ INSTANTIATE_TEST_SUITE_P(Methods, Reaches, testing::ValuesIn(kAll),
 
 /// Distance in the plane is known, and a disc in the middle ends long before the border: what was
 /// not reached costs nothing, so that the time is that of the disc.
-TEST(ReachOfWaves, TakesTheTimeOfWhatIsReached) {
+TEST(ReachOfWaves, TakesTheTimeOfWhatIsReachedSlow) {
   constexpr Index kSide = 400;
   const MeshPtr mesh = finish(plane_grid(kSide, kSide, 1, 1));
   for (const MethodKind kind :
