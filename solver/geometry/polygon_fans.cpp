@@ -147,7 +147,7 @@ class FanBuilder {
     for (const OuterSide& each : sides) {
       if (each.side == kNoSide) continue;
       mesh_.twin[each.side] = each.side;
-      if (!all) out_.walls.push_back(each.side);
+      (all ? out_.folds : out_.walls).push_back(each.side);
     }
   }
 
@@ -200,17 +200,13 @@ void find_parts(const CellComplex& given, PolygonFans& fans) {
     fans.parts.of[v] = root == v ? fans.parts.count++ : fans.parts.of[root];
   }
   fans.is_not_manifold.assign(static_cast<std::size_t>(fans.parts.count), 0);
-  const IntrinsicMesh& mesh = fans.mesh;
-  std::vector<char> is_wall(mesh.twin.size(), 0);
-  for (const Side side : fans.walls) is_wall[side] = 1;
-  for (Side side = 0; side < std::ssize(mesh.twin); ++side) {
-    if (mesh.twin[side] != side || is_wall[side] != 0) continue;
-    fans.is_not_manifold[fans.parts.of[mesh.faces[face_of(side)][corner_of(side)]]] = 1;
+  for (const Side side : fans.folds) {
+    fans.is_not_manifold[fans.parts.of[fans.mesh.faces[face_of(side)][corner_of(side)]]] = 1;
   }
 }
 
-void cover_fans(std::span<const Vec3> places, PolygonFans& fans, int threads) {
-  if (std::ranges::count(fans.is_not_manifold, 1) == 0) return;
+bool cover_fans(std::span<const Vec3> places, PolygonFans& fans, int threads) {
+  if (fans.folds.empty()) return false;
   IntrinsicMesh& mesh = fans.mesh;
   CleanFaces clean;
   clean.faces = mesh.faces;
@@ -227,6 +223,7 @@ void cover_fans(std::span<const Vec3> places, PolygonFans& fans, int threads) {
     const Side behind = 3 * back + 2 - corner_of(side);
     mesh.twin[behind] = behind;
   }
+  return true;
 }
 
 }  // namespace geotherm

@@ -23,9 +23,10 @@ struct PolygonFans {
   /// A side at a face that has no triangles, or at an edge that is no oriented manifold, is its own
   /// twin: neither a flip nor a split passes it.
   IntrinsicMesh mesh;
-  Components parts;                   ///< of the vertices that are in a cell
-  std::vector<char> is_not_manifold;  ///< of each part: it has an edge that is no such manifold
   std::vector<Side> walls;            ///< sides at a face without triangles
+  std::vector<Side> folds;            ///< the others at an edge that is no oriented manifold
+  Components parts;                   ///< of the vertices that are in a cell
+  std::vector<char> is_not_manifold;  ///< of each part: it has such an edge
 
   Index face_count() const { return static_cast<Index>(first.size()) - 1; }
   bool is_triangle(Index face) const { return first_cell[face + 1] - first_cell[face] == 1; }
@@ -39,8 +40,8 @@ PolygonFans build_fans(const CellComplex& given, double unit, int threads);
 void find_parts(const CellComplex& given, PolygonFans& fans);
 
 /// Makes the tufted cover of the parts with an edge that is no oriented manifold. `places`: of the
-/// V and F vertices. Precondition: find_parts(), no flips. Cost: O(corners), nothing where there is
-/// no such part.
-void cover_fans(std::span<const Vec3> places, PolygonFans& fans, int threads);
+/// V and F vertices. False where there is no such part. Precondition: find_parts(), no flips. Cost:
+/// O(corners).
+bool cover_fans(std::span<const Vec3> places, PolygonFans& fans, int threads);
 
 }  // namespace geotherm

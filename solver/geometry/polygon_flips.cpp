@@ -30,11 +30,10 @@ bool is_bad(const IntrinsicMesh& mesh, Side side) {
          kFlipped;
 }
 
-/// Triangles that flips join form a region, which is flipped where an edge of its is bad: which
-/// ones are does not depend on the order of the flips.
-Result<std::vector<Edit>> flip_bad_regions(IntrinsicMesh& mesh, int threads,
+/// Triangles that flips join form a region, and regions with a bad edge are flipped: which ones
+/// those are does not depend on the order of the flips. `sides`: non_delaunay_sides().
+Result<std::vector<Edit>> flip_bad_regions(IntrinsicMesh& mesh, std::vector<Side> sides,
                                            const Progress& progress) {
-  const std::vector<Side> sides = non_delaunay_sides(mesh, threads);
   IntrinsicMesh all = mesh;
   const auto flips = flip_to_delaunay(all, sides, progress);
   if (!flips) return flips.error();
@@ -44,9 +43,9 @@ Result<std::vector<Edit>> flip_bad_regions(IntrinsicMesh& mesh, int threads,
   for (const Side side : sides) {
     if (is_bad(mesh, side)) is_bad_region[regions.root(face_of(side))] = 1;
   }
-  std::vector<Side> wanted = sides;
-  std::erase_if(wanted, [&](Side side) { return !is_bad_region[regions.root(face_of(side))]; });
-  if (wanted.size() < sides.size()) return flip_to_delaunay(mesh, std::move(wanted), progress);
+  const auto left_out =
+      std::erase_if(sides, [&](Side side) { return !is_bad_region[regions.root(face_of(side))]; });
+  if (left_out > 0) return flip_to_delaunay(mesh, std::move(sides), progress);
   mesh = std::move(all);
   return flips;
 }
@@ -60,7 +59,7 @@ class PolygonFlipper {
 
   /// Flips and refines; false where nothing has to be flipped.
   Result<bool> edit(const Progress& progress, FlippedPolygons& out) {
-    const std::vector<Side> sides = non_delaunay_sides(mesh_, threads_);
+    std::vector<Side> sides = non_delaunay_sides(mesh_, threads_);
     const auto bad = [this](Side side) { return is_bad(mesh_, side); };
     if (std::ranges::none_of(sides, bad)) return false;
     find_parts(given_, fans_);
@@ -68,9 +67,9 @@ class PolygonFlipper {
     for (Index f = 0; f < fans_.face_count(); ++f) {
       places.push_back(given_.virtual_vertices[fans_.first_cell[f]]);
     }
-    cover_fans(places, fans_, threads_);
+    if (cover_fans(places, fans_, threads_)) sides = non_delaunay_sides(mesh_, threads_);
     first_split_ = mesh_.face_count();
-    auto flips = flip_bad_regions(mesh_, threads_, progress);
+    auto flips = flip_bad_regions(mesh_, std::move(sides), progress);
     if (!flips) return flips.error();
     edits_ = std::move(*flips);
     out.parts = fans_.parts;

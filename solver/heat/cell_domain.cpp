@@ -76,8 +76,9 @@ void follow_thickness(CellDomain& domain) {
   }
 }
 
-/// Of polygons that were flipped the cells say how large they are before they were refined.
-void resolve_refined(CellDomain& domain) {
+/// Polygons that were flipped have the mean width from before they were refined, of which t is
+/// made.
+void keep_width_of_flipped(CellDomain& domain) {
   const FlippedPolygons& flipped = *domain.flipped;
   for (Index v = 0; v < domain.input_vertices; ++v) {
     const Index row = domain.row_of_vertex[v], part = flipped.parts.of[v];
@@ -138,7 +139,7 @@ class CellInput final : public Domain::Input {
     out->mesh = build_cell_mesh(cells, pattern, order, out->unit, threads);
     number_rows(pattern, order, *out);
     out->components = measure_cells(*out->mesh);
-    if (out->flipped) resolve_refined(*out);
+    if (out->flipped) keep_width_of_flipped(*out);
     if (out->mesh->is_of_tets && !cells_->positions.empty() && cells_->lengths_are_straight) {
       follow_thickness(*out);
     }

@@ -11,9 +11,8 @@
 // The sides of WaveTables, once its faces have corners and edges.
 namespace geotherm {
 
-/// How many faces or edges before it is their turn they are fetched from memory: in the order of a
-/// pass over the tables those of the mesh lie apart, and waiting for them would be most of the
-/// time.
+/// Passes over the tables fetch the faces that they will read so many steps later: these lie apart
+/// in memory, and waiting for them would be most of the time.
 inline constexpr std::int64_t kFetchedAhead = 16;
 
 /// Of a block of faces, in units of the intrinsic mesh.
