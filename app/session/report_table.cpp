@@ -54,7 +54,7 @@ std::string time_in_words(const HeatMethod& method, const MeshSummary& mesh, boo
 
 std::string laplacian_in_words(const HeatMethod& method) {
   std::string name = to_text(method.laplacian());
-  if (method.laplacian() == LaplacianKind::kCotan) return name;
+  if (method.laplacian() == LaplacianKind::kCotan && method.flips() == 0) return name;
   if (method.refinement().points > 0) name += ": " + refinement_in_words(method.refinement());
   return name + ", " + counted(method.flips(), "edge", "edges") + " flipped";
 }

@@ -85,6 +85,8 @@ class PolygonFlipper {
     refinement_ = *std::move(refined);
     inserted_parts_.assign(parts.of.begin() + std::ssize(places), parts.of.end());
     out.grading = refinement_.grading;
+    out.flips = static_cast<Index>(std::ranges::count(edits_, Edit::Kind::kFlip, &Edit::kind));
+    out.inserted = refinement_;
     return true;
   }
 

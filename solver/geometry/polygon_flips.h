@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "geotherm/domains.h"
+#include "geotherm/mesh_report.h"
 #include "geotherm/progress.h"
 #include "solver/geometry/intrinsic_mesh.h"
 #include "solver/linear/symmetric_pattern.h"
@@ -28,6 +29,8 @@ struct FlippedPolygons {
   Components parts;                    ///< of the vertices that were given; kNoIndex: in no cell
   std::vector<double> mean_width;      ///< of each part's cells before refinement, in that unit
   std::vector<double> grading;         ///< of each part, Refinement::grading
+  Index flips = 0;                     ///< edits that were flips
+  RefinementCounts inserted;           ///< vertices, and why
 };
 
 /// Null where no edge has to be flipped, and for what are no polygons with virtual vertices. Parts

@@ -9,6 +9,7 @@
 #include "geotherm/backend.h"
 #include "geotherm/distance_method.h"
 #include "geotherm/error.h"
+#include "geotherm/mesh_report.h"
 #include "geotherm/options.h"
 #include "geotherm/progress.h"
 #include "geotherm/sources.h"
@@ -33,6 +34,12 @@ struct ComponentSize {
   Index cells = 0;      ///< that were not left out; of a triangle mesh those of the mesh
   double inserted = 0;  ///< share of the vertices that the input has not
   double grading = 1;   ///< the diffusion time that the cells resolve over mean_edge^2
+};
+
+/// How the triangles of a domain were edited before its operators were made.
+struct TriangleEdits {
+  Index flips = 0;
+  RefinementCounts inserted;
 };
 
 /// Cells in the components that hold a source, and those of them where the heat has no direction,
@@ -134,6 +141,9 @@ struct Domain {
   /// R^3 and its lengths are those of lines.
   virtual void check_straight_lines(const SourceSet& sources, BelowLine below, int threads,
                                     DistanceResult& result) const = 0;
+
+  /// None where it has no triangles.
+  virtual TriangleEdits triangle_edits() const { return {}; }
 
   /// Itself, where it is a triangle mesh.
   virtual const Surface* surface() const { return nullptr; }

@@ -222,14 +222,9 @@ LaplacianKind HeatMethod::laplacian() const {
   const Surface* const surface = state_->domain->surface();
   return surface != nullptr ? surface->laplacian : LaplacianKind::kCotan;
 }
-Index HeatMethod::flips() const {
-  const Surface* const surface = state_->domain->surface();
-  return surface != nullptr ? surface->flips : 0;
-}
-const RefinementCounts& HeatMethod::refinement() const {
-  static const RefinementCounts kNone;
-  const Surface* const surface = state_->domain->surface();
-  return surface != nullptr ? surface->refinement : kNone;
+Index HeatMethod::flips() const { return state_->domain->triangle_edits().flips; }
+RefinementCounts HeatMethod::refinement() const {
+  return state_->domain->triangle_edits().inserted;
 }
 std::shared_ptr<const IntrinsicSurface> HeatMethod::delaunay_triangulation() const {
   const Surface* const surface = state_->domain->surface();

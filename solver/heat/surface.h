@@ -46,6 +46,7 @@ struct Surface final : IntrinsicSurface, Domain {
   Result<std::vector<NearVertex>> near_field(const SourceAnchors& anchors) const override;
   void check_straight_lines(const SourceSet& sources, BelowLine below, int threads,
                             DistanceResult& result) const override;
+  TriangleEdits triangle_edits() const override { return {flips, refinement}; }
   const Surface* surface() const override { return this; }
 
   /// Whether waves may walk over its triangulation: it was made Delaunay and is no cover.

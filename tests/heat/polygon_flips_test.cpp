@@ -7,6 +7,7 @@
 #include <map>
 #include <numeric>
 #include <random>
+#include <set>
 #include <utility>
 
 #include "solver/geometry/polygon_flips.h"
@@ -146,6 +147,29 @@ TEST(FlippedPolygons, HaveNoVirtualVertexInAnAnswer) {
   const auto beyond = method->solve(SourceSet::of_vertices({cells->vertices}));
   ASSERT_FALSE(beyond);
   EXPECT_NE(beyond.error().message.find("out of range"), std::string::npos);
+}
+
+TEST(FlippedPolygons, AreCountedWithTheirInsertedVertices) {
+  PolygonMesh graded = moved_quads(16, 1, 0);
+  for (Vec3& at : graded.positions) {
+    if (at[0] > 0.5) at[0] = 0.5 + 20 * (at[0] - 0.5);
+  }
+  const auto cells = shared(cells_of(graded));
+  const auto method = HeatMethod::build(cells);
+  ASSERT_TRUE(method);
+  const auto made = flipped(*cells);
+  ASSERT_TRUE(made);
+  std::set<Index> virtual_vertices(made->virtual_of_cell.begin(), made->virtual_of_cell.end());
+  virtual_vertices.erase(kNoIndex);
+  EXPECT_GT(method->flips(), 0);
+  EXPECT_GT(method->refinement().points, 0);
+  EXPECT_EQ(method->refinement().points,
+            made->cells.vertices - cells->vertices - std::ssize(virtual_vertices));
+
+  const auto even = HeatMethod::build(shared(cells_of(moved_quads(16, 1, 0))));
+  ASSERT_TRUE(even);
+  EXPECT_EQ(even->flips(), 0);
+  EXPECT_EQ(even->refinement().points, 0);
 }
 
 TEST(FlippedPolygons, TakeSourcesInside) {
