@@ -47,8 +47,9 @@ struct CellDomain final : Domain {
   Result<std::vector<NearVertex>> near_field(const SourceAnchors& anchors) const override;
   void check_straight_lines(const SourceSet& sources, BelowLine below, int threads,
                             DistanceResult& result) const override;
-  TriangleEdits triangle_edits() const override {
-    return flipped ? TriangleEdits{flipped->flips, flipped->inserted} : TriangleEdits();
+  Index flip_count() const override { return flipped ? flipped->flips : 0; }
+  const RefinementCounts& inserted() const override {
+    return flipped ? flipped->inserted : Domain::inserted();
   }
 
   /// From one corner of a cell of `mesh` to another: within a triangle that was flipped, else

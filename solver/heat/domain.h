@@ -36,12 +36,6 @@ struct ComponentSize {
   double grading = 1;   ///< the diffusion time that the cells resolve over mean_edge^2
 };
 
-/// How the triangles of a domain were edited before its operators were made.
-struct TriangleEdits {
-  Index flips = 0;
-  RefinementCounts inserted;
-};
-
 /// Cells in the components that hold a source, and those of them where the heat has no direction,
 /// whether or not it could have one.
 struct CellCounts {
@@ -142,8 +136,12 @@ struct Domain {
   virtual void check_straight_lines(const SourceSet& sources, BelowLine below, int threads,
                                     DistanceResult& result) const = 0;
 
-  /// None where it has no triangles.
-  virtual TriangleEdits triangle_edits() const { return {}; }
+  /// Flips of its triangles before its operators were made, and what was inserted into them.
+  virtual Index flip_count() const { return 0; }
+  virtual const RefinementCounts& inserted() const {
+    static const RefinementCounts kNone;
+    return kNone;
+  }
 
   /// Itself, where it is a triangle mesh.
   virtual const Surface* surface() const { return nullptr; }

@@ -222,10 +222,8 @@ LaplacianKind HeatMethod::laplacian() const {
   const Surface* const surface = state_->domain->surface();
   return surface != nullptr ? surface->laplacian : LaplacianKind::kCotan;
 }
-Index HeatMethod::flips() const { return state_->domain->triangle_edits().flips; }
-RefinementCounts HeatMethod::refinement() const {
-  return state_->domain->triangle_edits().inserted;
-}
+Index HeatMethod::flips() const { return state_->domain->flip_count(); }
+const RefinementCounts& HeatMethod::refinement() const { return state_->domain->inserted(); }
 std::shared_ptr<const IntrinsicSurface> HeatMethod::delaunay_triangulation() const {
   const Surface* const surface = state_->domain->surface();
   if (surface == nullptr || !surface->serves_waves()) return nullptr;

@@ -46,7 +46,8 @@ struct Surface final : IntrinsicSurface, Domain {
   Result<std::vector<NearVertex>> near_field(const SourceAnchors& anchors) const override;
   void check_straight_lines(const SourceSet& sources, BelowLine below, int threads,
                             DistanceResult& result) const override;
-  TriangleEdits triangle_edits() const override { return {flips, refinement}; }
+  Index flip_count() const override { return flips; }
+  const RefinementCounts& inserted() const override { return refinement; }
   const Surface* surface() const override { return this; }
 
   /// Whether waves may walk over its triangulation: it was made Delaunay and is no cover.

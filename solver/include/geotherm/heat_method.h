@@ -114,11 +114,10 @@ class HeatMethod final : public DistanceMethod {
   std::array<double, 2> t_range() const;
   BoundaryRule boundary() const;    ///< what kAuto became
   LaplacianKind laplacian() const;  ///< what kAuto became
-  /// Delaunay edge flips made, of a polygon mesh among the triangles at virtual vertices.
-  Index flips() const;
+  Index flips() const;              ///< Delaunay edge flips made
   /// What was inserted into the triangulation, never into the mesh. The same for every time step:
   /// with() keeps it.
-  RefinementCounts refinement() const;
+  const RefinementCounts& refinement() const;
   const SetupTiming& timing() const override;  ///< of build() or of the with() that made this
   double memory_mb() const override;           ///< of all factors
   double forecast_mb() const;                  ///< the same, as it was foreseen
