@@ -158,7 +158,8 @@ std::vector<Warning> cleaning_notes(const CleanFaces& clean) {
   return notes;
 }
 
-std::shared_ptr<KeptFaces> keep_faces(CleanFaces& clean, const TriangleMesh& mesh, int threads) {
+std::shared_ptr<KeptFaces> keep_faces(CleanFaces& clean, const TriangleMesh& mesh, bool parts,
+                                      int threads) {
   auto kept = std::make_shared<KeptFaces>();
   kept->of_face.assign(static_cast<std::size_t>(mesh.face_count()), kNoIndex);
   kept->on_surface.resize(static_cast<std::size_t>(mesh.vertex_count()));
@@ -176,6 +177,7 @@ std::shared_ptr<KeptFaces> keep_faces(CleanFaces& clean, const TriangleMesh& mes
   static_cast<CleanFaces&>(*kept) = std::exchange(clean, {});
   clean.corners = std::move(corners);
   kept->original = {};
+  if (parts) kept->parts = parts_of(kept->faces, mesh.vertex_count());
   return kept;
 }
 
@@ -193,10 +195,8 @@ Result<IntrinsicSurface> build_intrinsic_surface(std::shared_ptr<const TriangleM
     out.kept = earlier->kept;
   } else {
     CleanFaces clean = clean_faces(*out.mesh, threads);
-    auto kept = keep_faces(clean, *out.mesh, threads);
+    out.kept = keep_faces(clean, *out.mesh, names_parts, threads);
     if (earlier == nullptr) out.corners = std::move(clean.corners);
-    if (names_parts) kept->parts = parts_of(kept->faces, out.mesh->vertex_count());
-    out.kept = std::move(kept);
   }
   const KeptFaces& clean = *out.kept;
   const auto positions = out.mesh->positions();

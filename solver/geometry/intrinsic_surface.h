@@ -43,8 +43,9 @@ struct KeptFaces : CleanFaces {  ///< without `original` and `corners`
   Components parts;              ///< of the mesh's vertices, as IntrinsicSurface has them
 };
 
-/// Takes the clean faces of the mesh, and leaves `corners` alone in `clean`.
-std::shared_ptr<KeptFaces> keep_faces(CleanFaces& clean, const TriangleMesh& mesh, int threads = 1);
+/// Takes the clean faces of the mesh, and leaves `corners` alone in `clean`. `parts`: names them.
+std::shared_ptr<KeptFaces> keep_faces(CleanFaces& clean, const TriangleMesh& mesh, bool parts,
+                                      int threads = 1);
 
 /// A mesh made ready for numerical work: cleaned, and triangulated intrinsically. Immutable; every
 /// distance method starts from one; only the heat method asks for covers. Surface (heat/) extends

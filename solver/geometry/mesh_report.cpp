@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <numeric>
 
@@ -186,7 +187,7 @@ Index count_duplicate_positions(const TriangleMesh& mesh) {
 
 /// Extent, qualities and angles.
 void inspect_shapes(const TriangleMesh& mesh, const CleanFaces& clean, MeshReport& report) {
-  double quality = 0, angle = std::numbers::pi;
+  double quality = 0, least_tangent = std::numeric_limits<double>::infinity();
   report.box_min.setConstant(std::numeric_limits<double>::infinity());
   report.box_max = -report.box_min;
   for (const Face& face : clean.faces) {
@@ -198,16 +199,15 @@ void inspect_shapes(const TriangleMesh& mesh, const CleanFaces& clean, MeshRepor
     }
     const Shape shape(corners);
     if (!(shape.longest > 0)) {
-      angle = 0;
+      least_tangent = 0;
       continue;
     }
     quality += shape.quality();
-    for (int k = 0; k < 3; ++k) {
-      const double cosine = -shape.side[k].dot(shape.side[previous_corner(k)]);
-      angle = std::min(angle, std::atan2(shape.doubled, cosine));
-    }
+    const auto dot = [&shape](int k) { return -shape.side[k].dot(shape.side[previous_corner(k)]); };
+    // The angles of a face have one tangent's numerator, and the smallest is acute.
+    least_tangent = std::min(least_tangent, shape.doubled / std::max({dot(0), dot(1), dot(2)}));
   }
-  report.smallest_angle = angle * 180 / std::numbers::pi;
+  report.smallest_angle = std::atan(least_tangent) * 180 / std::numbers::pi;
   report.mean_quality = quality / static_cast<double>(clean.faces.size());
 }
 
@@ -236,11 +236,14 @@ void inspect_edges(std::span<const Vec3> positions, const CleanFaces& clean, Mes
   report.tufted_components = count_flagged(clean, vertices, faces_that_need_cover(clean, vertices));
 }
 
-/// As LaplacianKind::kAuto has it.
-RefinementCounts count_refinement(const TriangleMesh& mesh) {
+/// As LaplacianKind::kAuto has it. Takes the clean faces.
+RefinementCounts count_refinement(const TriangleMesh& mesh, CleanFaces& clean) {
   const std::shared_ptr<const TriangleMesh> view(std::shared_ptr<void>(), &mesh);  // no owner
+  IntrinsicSurface known;
+  known.kept = keep_faces(clean, mesh, true);
   const auto surface = build_intrinsic_surface(
-      view, {FlipRule::kWhereNeeded, CoverRule::kWhereNeeded, RefineRule::kWhereNeeded});
+      view, {FlipRule::kWhereNeeded, CoverRule::kWhereNeeded, RefineRule::kWhereNeeded}, {}, 1,
+      &known);
   if (!surface) return {};
   return surface->refinement;
 }
@@ -274,7 +277,7 @@ double triangle_quality(const std::array<Vec3, 3>& corners) {
 }
 
 MeshReport inspect_mesh(const TriangleMesh& mesh) {
-  const CleanFaces clean = clean_faces(mesh);
+  CleanFaces clean = clean_faces(mesh);
   MeshReport report;
   static_cast<MeshSummary&>(report) = summarize_clean_faces(mesh, clean, 1);
   report.repeated_corner_faces = clean.repeated_corner;
@@ -287,7 +290,7 @@ MeshReport inspect_mesh(const TriangleMesh& mesh) {
   report.nonmanifold_vertices = count_split_vertices(mesh, clean);
   inspect_shapes(mesh, clean, report);
   inspect_edges(mesh.positions(), clean, report);
-  report.refinement = count_refinement(mesh);
+  report.refinement = count_refinement(mesh, clean);
   return report;
 }
 

@@ -95,7 +95,7 @@ Result<MeshMapping> MeshMapping::build(std::shared_ptr<const TriangleMesh> mesh,
   out.warnings_ = cleaning_notes(clean);
   out.surface_.mesh = out.mesh_;
   out.surface_.mean_edge = mean_edge_length(positions, clean.edges);
-  out.surface_.kept = keep_faces(clean, *out.mesh_);
+  out.surface_.kept = keep_faces(clean, *out.mesh_, false);
   out.milliseconds_ = watch.milliseconds();
   return out;
 }
