@@ -213,10 +213,12 @@ Result<Sequence> begin_sequence(const std::string& name, const SequenceArguments
   auto model = load_model(name, asked.reading, progress);
   if (!model) return model.error();
   if (!model->is_mesh()) {
+    Hint hint{"give a mesh"};
+    if (model->space) hint = {"give a mesh, or ", SettingHint{"domain", {"triangles"}}};
     return Error{ErrorCode::kBadInput,
                  "--sequence moves the vertices of triangles, and " + one_line(model->name) +
                      " is read as " + std::string(domain_name(*model)),
-                 {"give a mesh, or ", SettingHint{"domain", {"triangles"}}}};
+                 std::move(hint)};
   }
   auto placed = resolve_sources(sources, *model);
   if (!placed) return placed.error();

@@ -214,6 +214,14 @@ TEST_F(Sequence, RefusesWhatDoesNotGoWithIt) {
   EXPECT_NE(refused({"solve", "body.obj", "--sequence", "walk.npy", "-s", "1", "-o", "walk.npy"}, 2)
                 .find("walk.npy is the sequence itself"),
             std::string::npos);
+  std::string points;
+  for (int i = 0; i < 25; ++i) {
+    points += std::to_string(i % 5) + " " + std::to_string(i / 5) + " 0\n";
+  }
+  folder.write("points.xyz", points);
+  const std::string of_points =
+      refused({"solve", "points.xyz", "--sequence", "walk.npy", "-s", "1", "-o", "a.npy"}, 1);
+  EXPECT_NE(of_points.find("is read as points; give a mesh\n"), std::string::npos) << of_points;
   EXPECT_NE(refused({"solve", "cube", "--sequence", "walk.npy", "-s", "1", "-o", "a.npy"}, 1)
                 .find(" vertices, and the model 15002; all frames have the vertices"),
             std::string::npos);
