@@ -68,7 +68,11 @@ std::vector<Task> make_tasks(const Stage& stage, Index triangles, int samples) {
   };
   std::vector<Task> tasks;
   const auto add = [&](const std::string& name, const engine::Scene& scene) {
-    tasks.push_back({{.view = name, .triangles = triangles, .samples = samples}, scene});
+    RenderRow row;
+    row.view = name;
+    row.triangles = triangles;
+    row.samples = samples;
+    tasks.push_back({row, scene});
   };
   // One colour, light, no markers: what views are compared with.
   add("fill", scene_for(View::kSmooth, PictureShading::kPlain));

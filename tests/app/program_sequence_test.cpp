@@ -220,7 +220,7 @@ TEST_F(Sequence, RefusesWhatDoesNotGoWithIt) {
   }
   folder.write("points.xyz", points);
   const std::string of_points =
-      refused({"solve", "points.xyz", "--sequence", "walk.npy", "-s", "1", "-o", "a.npy"}, 1);
+      refused({"solve", "points.xyz", "--sequence", "walk.npy", "-s", "1", "-o", "a.npy"}, 2);
   EXPECT_NE(of_points.find("is read as points; give a mesh\n"), std::string::npos) << of_points;
   EXPECT_NE(refused({"solve", "cube", "--sequence", "walk.npy", "-s", "1", "-o", "a.npy"}, 1)
                 .find(" vertices, and the model 15002; all frames have the vertices"),
@@ -246,10 +246,15 @@ TEST_F(Sequence, ThatIsInterruptedLeavesNothing) {
 
 TEST(CancelledSequence, LeavesNothing) {
   const TemporaryDirectory folder;
-  app::GenerateArguments frames{.name = "bunny", .faces = "1000", .frames = "4"};
+  app::GenerateArguments frames;
+  frames.name = "bunny";
+  frames.faces = "1000";
+  frames.frames = "4";
   frames.output = folder.path("walk.npy");
   ASSERT_TRUE(app::run_generate(frames));
-  app::GenerateArguments body{.name = "bunny", .faces = "1000"};
+  app::GenerateArguments body;
+  body.name = "bunny";
+  body.faces = "1000";
   body.output = folder.path("body.obj");
   ASSERT_TRUE(app::run_generate(body));
   for (const char* output : {"a.npy", "a.pvd"}) {

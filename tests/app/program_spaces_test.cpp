@@ -27,7 +27,9 @@ class ProgramOnSpaces : public Program {
   void write_speeds() {
     std::vector<double> speeds(30 * 20, 1);
     for (std::size_t v = 0; v < speeds.size(); ++v) speeds[v] = v % 30 < 15 ? 1 : 2;
-    ASSERT_TRUE(write_distances(folder.path("speeds.vti"), Grid{.size = {30, 20, 1}}, speeds));
+    Grid grid;
+    grid.size = {30, 20, 1};
+    ASSERT_TRUE(write_distances(folder.path("speeds.vti"), grid, speeds));
   }
   void write_squares() {
     folder.write("squares.obj",
