@@ -204,7 +204,8 @@ void inspect_shapes(const TriangleMesh& mesh, const CleanFaces& clean, MeshRepor
     }
     quality += shape.quality();
     const auto dot = [&shape](int k) { return -shape.side[k].dot(shape.side[previous_corner(k)]); };
-    // The angles of a face have one tangent's numerator, and the smallest is acute.
+    // The tangent of a corner's angle is `doubled` over its dot product: the smallest angle, which
+    // is acute, has the largest.
     least_tangent = std::min(least_tangent, shape.doubled / std::max({dot(0), dot(1), dot(2)}));
   }
   report.smallest_angle = std::atan(least_tangent) * 180 / std::numbers::pi;
@@ -236,7 +237,7 @@ void inspect_edges(std::span<const Vec3> positions, const CleanFaces& clean, Mes
   report.tufted_components = count_flagged(clean, vertices, faces_that_need_cover(clean, vertices));
 }
 
-/// As LaplacianKind::kAuto has it. Takes the clean faces.
+/// As LaplacianKind::kAuto has it. The clean faces, which are those of `mesh`, are used up.
 RefinementCounts count_refinement(const TriangleMesh& mesh, CleanFaces& clean) {
   const std::shared_ptr<const TriangleMesh> view(std::shared_ptr<void>(), &mesh);  // no owner
   IntrinsicSurface known;

@@ -93,17 +93,16 @@ std::array<Place, 3> places_of(const FaceLayout& face) {
 double straight_through(const Place& a, const Place& b, const Place& target, double from_a,
                         double from_b) {
   const Place side{b.x - a.x, b.y - a.y}, apart{target.x - a.x, target.y - a.y};
-  const double length = length_of(side.x, side.y), per_length = 1 / length;
-  const double along = (side.x * apart.x + side.y * apart.y) * per_length;
-  const double height = std::abs(side.x * apart.y - side.y * apart.x) * per_length;
-  const double source = (length + (from_a - from_b) * (from_a + from_b) * per_length) / 2;
+  const double length = length_of(side.x, side.y);
+  const double along = (side.x * apart.x + side.y * apart.y) / length;
+  const double height = std::abs(side.x * apart.y - side.y * apart.x) / length;
+  const double source = (length + (from_a - from_b) * (from_a + from_b) / length) / 2;
   const double square = (from_a - source) * (from_a + source);
   if (!(square >= -kTolerance * length * length)) return kUnreached;
-  const double depth = std::sqrt(std::max(square, 0.0)), rise = depth + height;
-  const double crossing = source * height + along * depth;  // of the side, times the rise
-  const bool passes = crossing >= -kTolerance * length * rise &&
-                      crossing <= (1 + kTolerance) * length * rise && rise > 0;
-  return passes ? length_of(along - source, rise) : kUnreached;
+  const double depth = std::sqrt(std::max(square, 0.0));
+  const double crossing = source + (along - source) * depth / (depth + height);
+  const bool passes = crossing >= -kTolerance * length && crossing <= (1 + kTolerance) * length;
+  return passes ? length_of(along - source, depth + height) : kUnreached;
 }
 
 std::vector<NearDistance> march_over(std::span<const NearFace> near,
