@@ -43,8 +43,8 @@ struct KeptFaces : CleanFaces {  ///< without `original` and `corners`
   Components parts;              ///< of the mesh's vertices, as IntrinsicSurface has them
 };
 
-/// Takes the clean faces of the mesh, and leaves `corners` alone in `clean`. `parts`: whether to fill
-/// in KeptFaces::parts.
+/// Takes the clean faces of the mesh, and leaves `corners` alone in `clean`. `parts`: whether to
+/// fill in KeptFaces::parts.
 std::shared_ptr<KeptFaces> keep_faces(CleanFaces& clean, const TriangleMesh& mesh, bool parts,
                                       int threads = 1);
 
