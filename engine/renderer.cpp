@@ -71,6 +71,21 @@ struct Renderer::State {
     coarse.reset();
   }
 
+  /// Draws the mesh that is drawn in this light.
+  void relight(const DrawMesh& mesh) {
+    recorder.set_vertices(mesh.vertices);
+    coarse.reset();
+    if (!face_values.empty()) recorder.set_separate_faces(separate_faces(mesh), by_corner());
+  }
+
+  /// The values of faces, three times each.
+  std::vector<float> by_corner() const {
+    std::vector<float> corners;
+    corners.reserve(3 * face_values.size());
+    for (const float value : face_values) corners.insert(corners.end(), 3, value);
+    return corners;
+  }
+
   /// The model's values, by its vertices.
   std::vector<float> values() const {
     std::vector<float> out(positions.size(), kNoValue);
@@ -191,6 +206,22 @@ Result<void> Renderer::move_surface(std::span<const glm::vec3> positions,
   });
 }
 
+Result<void> Renderer::set_openness(std::span<const Openness> openness) {
+  State& s = *state_;
+  assert(openness.size() == s.positions.size());
+  return guarded("loading light", [&]() -> Result<void> {
+    s.recorder.use_coarse(false);
+    s.openness.assign(openness.begin(), openness.end());
+    if (s.moving) {
+      s.moving->move(s.positions, s.openness);
+      s.relight(s.moving->mesh());
+    } else {
+      s.relight(build_draw_mesh({s.positions, s.faces, s.solid, s.openness}));
+    }
+    return {};
+  });
+}
+
 Result<void> Renderer::set_values(std::span<const float> values) {
   assert(values.size() == state_->positions.size());
   return guarded("loading distances", [&]() -> Result<void> {
@@ -225,9 +256,7 @@ Result<void> Renderer::set_face_values(std::span<const float> values) {
     State& s = *state_;
     s.values_changed();
     s.face_values.assign(values.begin(), values.end());
-    std::vector<float> corners;
-    corners.reserve(3 * values.size());
-    for (const float value : values) corners.insert(corners.end(), 3, value);
+    const std::vector<float> corners = s.by_corner();
     if (!values.empty() && !s.recorder.has_face_values()) {
       const DrawMesh mesh = build_draw_mesh({s.positions, s.faces, s.solid, s.openness});
       s.recorder.set_separate_faces(separate_faces(mesh), corners);

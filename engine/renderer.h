@@ -67,6 +67,9 @@ class Renderer {
   /// copy of V vertices.
   Result<void> move_surface(std::span<const glm::vec3> positions,
                             std::span<const Openness> openness = {});
+  /// Replaces what light comes to the vertices: V. Everything else that was set stays. Cost: that
+  /// of set_surface() without the faces, or a copy of V vertices of a model that has moved.
+  Result<void> set_openness(std::span<const Openness> openness);
   /// One value a vertex (kNoValue: none). Cost: a copy of V floats.
   Result<void> set_values(std::span<const float> values);
   /// One place in the colours a vertex, -1 where there is none (Paint::kRegions), and its margin

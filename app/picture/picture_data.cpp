@@ -89,7 +89,6 @@ PictureData picture_in(const SceneSpace& scene, const TriangleMesh& mesh) {
     data.faces.push_back({static_cast<std::uint32_t>(face[0]), static_cast<std::uint32_t>(face[1]),
                           static_cast<std::uint32_t>(face[2])});
   }
-  light_picture(data);
   return data;
 }
 
@@ -98,11 +97,18 @@ PictureData picture_in(const SceneSpace& scene, const TriangleMesh& mesh) {
 PictureData picture_of_frame(const TriangleMesh& mesh, std::span<const Vec3> extent) {
   const SceneSpace scene(extent);
   PictureData data = picture_in(scene, mesh);
+  light_picture(data);
   for (const Vec3& p : extent) data.framed.push_back(scene.of(p));
   return data;
 }
 
 PictureData picture_of(const TriangleMesh& mesh, std::shared_ptr<const TetMesh> volume) {
+  PictureData data = unlit_picture_of(mesh, std::move(volume));
+  light_picture(data);
+  return data;
+}
+
+PictureData unlit_picture_of(const TriangleMesh& mesh, std::shared_ptr<const TetMesh> volume) {
   const SceneSpace scene(mesh);
   PictureData data = picture_in(scene, mesh);
   data.volume = std::move(volume);

@@ -89,6 +89,8 @@ struct PictureData {
 /// decides where the scene lies; vertices that belong to no face and no tet are put on one that
 /// does.
 PictureData picture_of(const TriangleMesh& mesh, std::shared_ptr<const TetMesh> volume = nullptr);
+/// The same as if the surface hid nothing of its surroundings, until light_picture().
+PictureData unlit_picture_of(const TriangleMesh& mesh, std::shared_ptr<const TetMesh> volume);
 
 /// A frame of a surface that moves, in the scene of these points (model units), which the camera
 /// fits: with the points of all frames it stands still. Precondition: there are some.

@@ -59,7 +59,7 @@ struct Explored {
   std::optional<Warning> centre_failure;       ///< why there is none although one is wanted
   std::optional<Warning> path_failure;         ///< why there are none although there is a target
   std::optional<Error> b_failure;              ///< why there is no B although settings are kept
-  bool checked = false;  ///< true if these answers were shown before, without errors and centre
+  bool shown = false;  ///< true if these answers were before, without light, errors and centre
   std::uint64_t version = 0;  ///< incremented with every change
 };
 

@@ -133,23 +133,25 @@ Result<void> Explorer::load(const ExploreRequest& request, const Progress& progr
   model->model = *std::move(loaded);
   const std::shared_ptr<const TriangleMesh> mesh = model->model.mesh;
   if (!report(progress, "inspecting", -1)) return cancelled_error();
-  // Both take about as long, and people wait for the picture.
   auto picture = std::async(std::launch::async, [&model, &mesh] {
-    return std::make_shared<PictureData>(picture_of(*mesh, tets_of(model->model)));
+    return unlit_picture_of(*mesh, tets_of(model->model));
   });
   describe(*model);
-  auto base = picture.get();
+  auto base = std::make_shared<PictureData>(picture.get());
   base->up = model->model.up;
   base->solid = is_solid(*mesh, model->mesh);
   model->base = std::move(base);
   Explored first;
   first.model = model;
-  early(first);
+  early(first);  // people wait for the picture: what it can do without comes after it
   auto rays = RayTree::build(mesh, progress);
   if (!rays) return rays.error();
   auto whole = std::make_shared<ExploredModel>(*model);
   whole->rays = std::make_shared<const RayTree>(*std::move(rays));
   read_ = model_ = std::move(whole);
+  lit_ = false;
+  first.model = model_;
+  early(first);
   rays_ = read_->rays;
   solver_.emplace(model_->model, ModelSolver::Use::kSession);
   solver_->set_summary(model_->mesh);
@@ -317,13 +319,8 @@ Result<std::shared_ptr<const Answer>> Explorer::answer(const ExploreRequest& req
   return std::make_shared<const Answer>(*std::move(answer));
 }
 
-Result<Explored> Explorer::explore(const ExploreRequest& request, const Progress& progress,
-                                   const Early& early) try {
-  if (auto loaded = load(request, progress, early); !loaded) return loaded.error();
-  if (auto moved = move(request, progress); !moved) return moved.error();
-  if (request.quality) {
-    if (auto done = inspect(progress); !done) return done.error();
-  }
+/// All that is shown at once.
+Result<Explored> Explorer::work_out(const ExploreRequest& request, const Progress& progress) {
   Explored explored;
   explored.model = model_;
   explored.sources = request.sources;
@@ -359,7 +356,21 @@ Result<Explored> Explorer::explore(const ExploreRequest& request, const Progress
     }
   }
   solver_->drop_unwanted();
-  if (auto done = follow_up(request, explored, progress, early); !done) return done.error();
+  return explored;
+}
+
+Result<Explored> Explorer::explore(const ExploreRequest& request, const Progress& progress,
+                                   const Early& early) try {
+  if (auto loaded = load(request, progress, early); !loaded) return loaded.error();
+  if (auto moved = move(request, progress); !moved) return moved.error();
+  if (request.quality) {
+    if (auto done = inspect(progress); !done) return done.error();
+  }
+  Result<Explored> explored = work_out(request, progress);
+  const bool cancelled = !explored && explored.error().code == ErrorCode::kCancelled;
+  if (!lit_ && request.quality && !cancelled) light(explored, early);
+  if (!explored || !explored->a) return explored;
+  if (auto done = follow_up(request, *explored, progress, early); !done) return done.error();
   return explored;
 } catch (const std::bad_alloc&) {
   return Error{ErrorCode::kOutOfMemory,

@@ -1,10 +1,32 @@
 // SPDX-License-Identifier: MIT
-// What follows an answer: paths, the centre of its sources, the check.
+// What follows an answer: light, paths, the centre of its sources, the check.
 #include "app/session/explorer.h"
 #include "app/session/progress.h"
 #include "app/session/wording.h"
 
 namespace geotherm::app {
+
+/// Finds how light falls on the model as its file has it; answers are shown before.
+void Explorer::light(Result<Explored>& explored, const Early& early) {
+  if (explored && explored->a) {
+    early(*explored);
+    explored->shown = true;
+  }
+  auto lit = std::make_shared<ExploredModel>(*read_);
+  auto base = std::make_shared<PictureData>(*lit->base);
+  light_picture(*base);
+  lit->base = std::move(base);
+  lit_ = true;
+  if (model_ == read_) model_ = lit;
+  read_ = std::move(lit);
+  if (explored) {
+    explored->model = model_;
+  } else if (model_ == read_) {  // without an answer, it is seen all the same
+    Explored model;
+    model.model = model_;
+    early(std::move(model));
+  }
+}
 
 /// If no path is found, the distances are still shown.
 Result<void> Explorer::find_paths(const ExploreRequest& request, Explored& explored,
@@ -55,7 +77,7 @@ Result<void> Explorer::follow_up(const ExploreRequest& request, Explored& explor
   const bool seeks = request.centre && !knows_centre(request, explored);
   if (!checks && !seeks) return {};
   early(explored);
-  explored.checked = true;
+  explored.shown = true;
   if (seeks) {
     if (auto done = find_centre(request, explored, progress); !done) return done;
   }

@@ -87,6 +87,7 @@ struct Session::State {
   void say_failure(const Error& error);
   bool close_opening();
   void look_head_on();
+  bool take_more_of_model(const std::shared_ptr<const ExploredModel>& model);
   void note_warnings(const Explored& before);
   void note_error(const Explored& before);
   void note_centre(const Explored& before);

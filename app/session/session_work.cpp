@@ -146,6 +146,7 @@ bool Session::State::take() {
         take_answer(early->request, std::move(early->explored));
         continue;
       }
+      if (take_more_of_model(early->explored.model)) continue;
       const std::uint64_t version = explored.version;
       explored = std::move(early->explored);
       explored.version = version + 1;
@@ -173,6 +174,15 @@ bool Session::State::take() {
     }
   }
   return !messages.empty();
+}
+
+/// The model that is open with what was missing: light, or that it can be picked on. False: it is
+/// another one.
+bool Session::State::take_more_of_model(const std::shared_ptr<const ExploredModel>& model) {
+  if (!explored.model || explored.model->model.mesh != model->model.mesh) return false;
+  if (explored.model->base != model->base) ++explored.version;
+  explored.model = model;
+  return true;
 }
 
 /// A grid of one layer is looked at head-on, where nobody has turned it yet.
@@ -229,7 +239,7 @@ void Session::State::take_answer(const ExploreRequest& request, Result<Explored>
   if (is_last) failure.clear();
   if (is_last && explored.b_failure) say_failure(*explored.b_failure);
   if (!explored.a) return;
-  if (explored.checked) {
+  if (explored.shown) {
     note_centre(before);
     note_error(before);
     return;

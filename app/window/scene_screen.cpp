@@ -81,11 +81,7 @@ Result<void> SceneScreen::update_data(const Session& session) {
   if (base_ != explored.model->base) {
     const PictureData& next = *explored.model->base;
     std::vector<glm::vec3> positions = scene_vectors(next.positions);
-    // A surface that moves keeps its faces.
-    const bool moves = base_ && !cut_ && base_->faces == next.faces;
-    auto done = moves ? renderer_.move_surface(positions, scene_openness(next))
-                      : upload_surface(renderer_, next, positions);
-    if (!done) return done;
+    if (auto done = update_surface(next, positions); !done) return done;
     base_ = explored.model->base;
     data_ = *base_;
     cut_.reset();
@@ -103,6 +99,17 @@ Result<void> SceneScreen::update_data(const Session& session) {
   uploaded_ = now;
   laid_out_.reset();
   return {};
+}
+
+/// A surface that moves keeps its faces, one whose light has been found its places, too.
+Result<void> SceneScreen::update_surface(const PictureData& next,
+                                         const std::vector<glm::vec3>& positions) {
+  if (!base_ || cut_ || base_->faces != next.faces) {
+    return upload_surface(renderer_, next, positions);
+  }
+  const std::vector<engine::Openness> openness = scene_openness(next);
+  return positions == positions_ ? renderer_.set_openness(openness)
+                                 : renderer_.move_surface(positions, openness);
 }
 
 /// The whole model stays on the device as it is; what is cut is uploaded with each change.

@@ -86,6 +86,7 @@ class SceneScreen {
   SceneScreen(engine::Device device, engine::Renderer renderer);
   static Result<std::unique_ptr<SceneScreen>> prepare(const engine::DeviceOptions& options);
   Result<void> update_data(const Session& session);
+  Result<void> update_surface(const PictureData& next, const std::vector<glm::vec3>& positions);
   Result<void> upload_data(const PictureSettings& settings);
   void update_legend(const PictureSettings& settings);
 

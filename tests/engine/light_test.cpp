@@ -157,6 +157,44 @@ TEST_P(Lit, FormDimsWhatIsClosedAndWhatTurnsAway) {
   }
 }
 
+/// As a viewer sets it: the picture of a model comes first, its light when it has been found.
+TEST_P(Lit, LightThatIsSetLaterIsThatOfTheSurface) {
+  const Model model = model_of(torus(400, 200, 0.4));  // a coarse surface stands for it, too
+  std::vector<Openness> openness;
+  for (const glm::vec3& p : model.positions) openness.push_back({p, p.x < 0 ? 0.25F : 1.0F, 1});
+  SurfaceGeometry geometry = model.geometry();
+  geometry.openness = openness;
+  const std::vector<float> heights = model.values([](const glm::vec3& p) { return p.y; });
+  const std::vector<float> of_faces(model.faces.size(), 0.5F);
+  const auto set_all = [&](Stage& stage) {
+    stage.scene.light = GetParam();
+    stage.scene.surface.form = true;
+    stage.paint(heights, -1, 1);
+    must(stage.renderer.set_face_values(of_faces));
+  };
+  Stage at_once(device(), model);
+  must(at_once.renderer.set_surface(geometry));
+  set_all(at_once);
+  Stage later(device(), model), moved(device(), model);
+  must(moved.renderer.move_surface(model.positions));
+  for (Stage* stage : {&later, &moved}) {
+    set_all(*stage);
+    stage->renderer.set_coarse(true);
+    stage->draw();
+    must(stage->renderer.set_openness(openness));
+    for (const Paint paint : {Paint::kMap, Paint::kFaces}) {
+      at_once.scene.surface.paint = stage->scene.surface.paint = paint;
+      for (const bool coarse : {false, true}) {
+        at_once.renderer.set_coarse(coarse);
+        stage->renderer.set_coarse(coarse);
+        EXPECT_EQ(stage->draw().pixels, at_once.draw().pixels)
+            << (stage == &moved ? "moved, " : "") << (coarse ? "coarse, " : "")
+            << (paint == Paint::kFaces ? "faces" : "values");
+      }
+    }
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(All, Lit, testing::Values(Light::kHeadlight, Light::kThreePoint),
                          [](const auto& test) {
                            return std::string(test.param == Light::kHeadlight ? "Headlight"

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "app/session/explorer.h"
 #include "tests/explore/session_fixture.h"
 
 namespace geotherm::app {
@@ -134,6 +135,50 @@ TEST_F(SessionMesh, SaysWhyAModelCannotBeReadSo) {
   run({"undo"});
   EXPECT_EQ(shown().distances[0], 0);
   EXPECT_FALSE(session.submit(*parse_command("open -")));
+}
+
+/// What an explorer hands out of a model before it is done, and what it ends with.
+struct HandedOut {
+  std::vector<Explored> early;
+  Result<Explored> last;
+};
+
+HandedOut handed_out(const std::string& model, const char* source) {
+  ExploreRequest request;
+  request.model = model;
+  request.sources = {*parse_source(source)};
+  Explorer explorer;
+  std::vector<Explored> early;
+  auto last = explorer.explore(request, {}, [&](Explored part) { early.push_back(part); });
+  return {std::move(early), std::move(last)};
+}
+
+TEST_F(SessionMesh, NeitherThePictureNorDistancesWaitForLight) {
+  const auto [early, last] = handed_out(small_model(), "5");
+  ASSERT_TRUE(last);
+  ASSERT_EQ(early.size(), 3U);
+  EXPECT_FALSE(early[0].model->rays) << "the picture comes first,";
+  EXPECT_TRUE(early[1].model->rays) << "then the model can be picked on,";
+  EXPECT_TRUE(early[2].a && !early[2].shown) << "then there are distances";
+  for (const Explored& part : early) EXPECT_TRUE(part.model->base->openness.empty());
+  EXPECT_EQ(last->a, early[2].a);
+  EXPECT_TRUE(last->shown);
+  const PictureData whole = picture_of(*last->model->model.mesh);
+  ASSERT_EQ(last->model->base->openness.size(), whole.openness.size());
+  for (std::size_t v = 0; v < whole.openness.size(); ++v) {
+    EXPECT_EQ(last->model->base->openness[v].front, whole.openness[v].front);
+  }
+}
+
+TEST_F(SessionMesh, AModelWhoseSourcesAreNotFoundIsLitAndCanBePickedOn) {
+  const auto [early, last] = handed_out(small_model(), "999999");
+  ASSERT_FALSE(last);
+  ASSERT_FALSE(early.empty());
+  EXPECT_FALSE(early.back().model->base->openness.empty());
+  EXPECT_TRUE(early.back().model->rays);
+  run({"open " + small_model()});
+  const auto opens = [](const LogLine& line) { return line.text.starts_with("opened "); };
+  EXPECT_EQ(std::ranges::count_if(session.log(), opens), 1) << "whatever comes of it later";
 }
 
 }  // namespace
