@@ -59,7 +59,7 @@ void draw_inside(Frame& frame, const InsidePoint& point) {
   draw_position(frame, point.position);
 }
 
-void draw_picked(Frame& frame) {
+void draw_picked_point(Frame& frame) {
   draw_heading(frame, "Picked point");
   const auto& picked = frame.state().picked;
   const auto point = picked ? surface_point(*picked, frame.model()->mesh.faces) : std::nullopt;
@@ -99,7 +99,7 @@ void draw_paths(Frame& frame) {
 void draw_point_panel(Frame& frame) {
   if (!draw_section(frame, "Point")) return;
   if (!frame.model()) return draw_dim(frame, "No model is open.");
-  draw_picked(frame);
+  draw_picked_point(frame);
   draw_paths(frame);
   draw_heading(frame, "Under the pointer");
   if (const auto& hovered = frame.ui.input.hovered()) {

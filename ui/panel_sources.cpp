@@ -181,7 +181,7 @@ struct SourceButton {
   Action action;
   const char* tip;
 };
-constexpr SourceButton kButtons[] = {
+constexpr SourceButton kSourceButtons[] = {
     {"fewer", "\u2212 fewer", Action::kFewerSources, "One random source fewer (-)."},
     {"more", "+ more", Action::kMoreSources, "One more random source (+)."},
     {"shuffle", "shuffle", Action::kShuffleSources, "As many sources at new random places (h)."},
@@ -201,7 +201,7 @@ void draw_sources_panel(Frame& frame) {
   draw_typed(frame);
   const float width = button_width(3);
   int column = 0;
-  for (const SourceButton& button : kButtons) {
+  for (const SourceButton& button : kSourceButtons) {
     if (column++ % 3 != 0) ImGui::SameLine();
     const bool on = is_on(frame, button.action);
     const bool possible = is_possible(frame, button.action);

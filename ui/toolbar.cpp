@@ -19,7 +19,7 @@ struct ToolEntry {
   const char* label;
   const char* hint;  ///< what a click does
 };
-constexpr ToolEntry kTools[] = {
+constexpr ToolEntry kToolEntries[] = {
     {Tool::kView, Action::kViewTool, "View", "drag turns, Shift moves, wheel zooms"},
     {Tool::kSource, Action::kSourceTool, "Source",
      "click: source here; Shift adds one; drag moves one"},
@@ -37,7 +37,7 @@ std::string hint_now(const Frame& frame) {
     const auto entry = static_cast<std::size_t>(explored.places[*place].entry);
     return short_name(explored.sources[entry]) + ": drag moves it, Delete removes it";
   }
-  for (const ToolEntry& entry : kTools) {
+  for (const ToolEntry& entry : kToolEntries) {
     if (entry.tool == frame.ui.input.tool) return entry.hint;
   }
   return {};
@@ -85,7 +85,7 @@ void draw_toolbar(Frame& frame) {
                ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
                    ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoScrollWithMouse |
                    ImGuiWindowFlags_NoBringToFrontOnFocus | ImGuiWindowFlags_NoNavInputs);
-  for (const ToolEntry& entry : kTools) {
+  for (const ToolEntry& entry : kToolEntries) {
     const bool on = frame.ui.input.tool == entry.tool;
     if (draw_toggle(frame, {entry.label, entry.label, on, is_possible(frame, entry.action)}, 0) &&
         !on) {

@@ -139,7 +139,7 @@ std::string TextTable::text() const {
 
 namespace {
 
-constexpr std::string_view kPlain =
+constexpr std::string_view kUnquoted =
     "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+=:,./@%";
 
 bool fits_a_line(std::string_view word) { return printable(word) == word; }
@@ -172,7 +172,7 @@ std::string in_dollar_quotes(std::string_view word) {
 std::string shell_command(std::string program, const std::vector<std::string>& words) {
   for (const std::string& word : words) {
     program += ' ';
-    if (!word.empty() && word.find_first_not_of(kPlain) == std::string::npos) {
+    if (!word.empty() && word.find_first_not_of(kUnquoted) == std::string::npos) {
       program += word;
     } else {
       program += fits_a_line(word) ? in_quotes(word) : in_dollar_quotes(word);

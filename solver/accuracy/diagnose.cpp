@@ -22,11 +22,12 @@ constexpr double kWorthOther = 0.8, kWorthFaces = 0.5;
 constexpr double kOptionsDone = 0.5, kFacesDone = 0.8;
 
 /// The question, and the best answers to it so far.
-class Search {
+class CauseSearch {
  public:
   /// `mesh`: null in other spaces, where only options of the heat method are tried.
-  Search(MakeMethod make, std::shared_ptr<const TriangleMesh> mesh, const CheckedAnswers& answers,
-         MethodKind reference, std::span<const std::vector<double>> better)
+  CauseSearch(MakeMethod make, std::shared_ptr<const TriangleMesh> mesh,
+              const CheckedAnswers& answers, MethodKind reference,
+              std::span<const std::vector<double>> better)
       : make_(std::move(make)),
         mesh_(std::move(mesh)),
         answers_(answers),
@@ -146,7 +147,7 @@ class Search {
 };
 
 /// Options of the heat method, until one is the remedy.
-Result<void> try_candidates(Search& search, std::span<const Candidate> candidates,
+Result<void> try_candidates(CauseSearch& search, std::span<const Candidate> candidates,
                             const Progress& progress) {
   const auto count = static_cast<double>(candidates.size());
   double done = 0;
@@ -160,7 +161,7 @@ Result<void> try_candidates(Search& search, std::span<const Candidate> candidate
   return {};
 }
 
-Result<void> try_heat_options(Search& search, const TriangleMesh& mesh,
+Result<void> try_heat_options(CauseSearch& search, const TriangleMesh& mesh,
                               const CheckedAnswers& answers, double most_faces,
                               const Progress& progress) {
   double faces = mesh.face_count();
@@ -200,7 +201,7 @@ Result<Diagnosis> diagnose(const std::shared_ptr<const TriangleMesh>& mesh,
     if (!waves) return waves.error();
     return build_method(mesh, options, part, *std::move(waves));
   };
-  Search search(make, mesh, answers, reference, better);
+  CauseSearch search(make, mesh, answers, reference, better);
   if (badness(joint_error(answers.distances, better).figures) == 0) return Diagnosis{};
   if (answers.method.heat() != nullptr) {
     const auto tried = try_heat_options(search, *mesh, answers, most_faces, progress);
@@ -217,7 +218,7 @@ Result<Diagnosis> diagnose(const std::shared_ptr<const TriangleMesh>& mesh,
 Result<Diagnosis> diagnose_space(const MakeMethod& make, const CheckedAnswers& answers,
                                  const ReferenceAnswers& better,
                                  std::span<const Candidate> candidates, const Progress& progress) {
-  Search search(make, nullptr, answers, better.method, better.distances);
+  CauseSearch search(make, nullptr, answers, better.method, better.distances);
   if (auto tried = try_candidates(search, candidates, progress); !tried) return tried.error();
   if (!search.found.remedy) search.take_reference();
   return std::move(search.found);

@@ -42,20 +42,20 @@ struct Known {
   DataField::Type type;
 };
 
-using Place = DataField::Place;
+using FieldPlace = DataField::Place;
 using Type = DataField::Type;
 constexpr std::array kKnown = {
-    Known{QualityField::kError, "error", Place::kVertices, Type::kFloat64},
-    Known{QualityField::kEikonalError, "eikonal-error", Place::kFaces, Type::kFloat64},
-    Known{QualityField::kGradientAngle, "gradient-angle", Place::kFaces, Type::kFloat64},
-    Known{QualityField::kLostGradients, "lost-gradients", Place::kFaces, Type::kUint8},
-    Known{QualityField::kTriangleQuality, "triangle-quality", Place::kFaces, Type::kFloat64},
-    Known{QualityField::kNonDelaunay, "non-delaunay", Place::kFaces, Type::kUint8},
+    Known{QualityField::kError, "error", FieldPlace::kVertices, Type::kFloat64},
+    Known{QualityField::kEikonalError, "eikonal-error", FieldPlace::kFaces, Type::kFloat64},
+    Known{QualityField::kGradientAngle, "gradient-angle", FieldPlace::kFaces, Type::kFloat64},
+    Known{QualityField::kLostGradients, "lost-gradients", FieldPlace::kFaces, Type::kUint8},
+    Known{QualityField::kTriangleQuality, "triangle-quality", FieldPlace::kFaces, Type::kFloat64},
+    Known{QualityField::kNonDelaunay, "non-delaunay", FieldPlace::kFaces, Type::kUint8},
 };
 
 const Known& known(QualityField field) { return *std::ranges::find(kKnown, field, &Known::field); }
 
-std::array<Vec3, 3> corners_of(const TriangleMesh& mesh, const Face& face) {
+std::array<Vec3, 3> corner_places(const TriangleMesh& mesh, const Face& face) {
   const auto positions = mesh.positions();
   return {positions[face[0]], positions[face[1]], positions[face[2]]};
 }
@@ -142,7 +142,7 @@ std::vector<double> eikonal_errors(const TriangleMesh& mesh, std::span<const dou
   return face_values(mesh, [&](Index f, const Face& face) {
     const double slope = gradients[f].stableNorm();
     const bool has_value =
-        is_reached(distances, face) && (slope > 0 || has_plane(corners_of(mesh, face)));
+        is_reached(distances, face) && (slope > 0 || has_plane(corner_places(mesh, face)));
     return has_value ? std::abs(slope - 1) : kUnreached;
   });
 }
@@ -154,14 +154,14 @@ std::vector<double> lost_gradients(const TriangleMesh& mesh, std::span<const dou
     // Between sources distance is 0, and there is no direction to lose.
     const bool is_source = std::ranges::all_of(face, [&](Index v) { return distances[v] == 0; });
     const bool lost = heat[f].isZero(0) && !is_source && is_reached(distances, face) &&
-                      has_plane(corners_of(mesh, face));
+                      has_plane(corner_places(mesh, face));
     return lost ? 1.0 : 0.0;
   });
 }
 
 std::vector<double> triangle_qualities(const TriangleMesh& mesh) {
   return face_values(
-      mesh, [&](Index, const Face& face) { return triangle_quality(corners_of(mesh, face)); });
+      mesh, [&](Index, const Face& face) { return triangle_quality(corner_places(mesh, face)); });
 }
 
 std::vector<double> non_delaunay_edges(const TriangleMesh& mesh) {

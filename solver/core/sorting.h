@@ -167,4 +167,15 @@ void for_each_with_value(const std::vector<Byte>& bytes, Byte value, Body&& body
   }
 }
 
+/// The lowest 21 bits of a number, two zeros between each and the next: three such numbers make
+/// a place on Morton's curve.
+inline std::uint64_t spread_bits(std::uint64_t x) {
+  x = (x | x << 32) & 0x001f00000000ffffu;
+  x = (x | x << 16) & 0x001f0000ff0000ffu;
+  x = (x | x << 8) & 0x100f00f00f00f00fu;
+  x = (x | x << 4) & 0x10c30c30c30c30c3u;
+  x = (x | x << 2) & 0x1249249249249249u;
+  return x;
+}
+
 }  // namespace geotherm

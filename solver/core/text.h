@@ -64,6 +64,11 @@ inline std::string file_extension(std::string_view path) {
   return extension;
 }
 
+/// That of the format in which something is written: "-" is CSV.
+inline std::string written_extension(std::string_view path) {
+  return path == "-" ? ".csv" : file_extension(path);
+}
+
 /// The path fit for a message of one line.
 using geotherm::printable;
 

@@ -102,10 +102,10 @@ struct Place {
   double residual() const { return step.norm(); }
 };
 
-class Descent {
+class CentreDescent {
  public:
-  Descent(const Directions& directions, const PointedMesh& pointed, std::span<const double> weights,
-          const CentreOptions& options)
+  CentreDescent(const Directions& directions, const PointedMesh& pointed,
+                std::span<const double> weights, const CentreOptions& options)
       : directions_(directions), pointed_(pointed), weights_(weights), options_(options) {}
 
   Result<Centre> run(const SurfacePoint& start, const Progress& progress) {
@@ -338,10 +338,10 @@ Result<Centres> find_centres(const std::shared_ptr<const TriangleMesh>& mesh,
   for (std::size_t i = 0; i < starts.size(); ++i) {
     const double begun = 0.6 + 0.4 * static_cast<double>(i) / static_cast<double>(starts.size());
     const Progress part = part_of(progress, begun, begun);  // how many steps there are is not known
-    auto centre = Descent(**directions, *pointed, weights, first)
+    auto centre = CentreDescent(**directions, *pointed, weights, first)
                       .run(SurfacePoint::at_vertex(starts[i]), part);
     if (centre && first.method != options.method) {
-      centre = Descent(**directions, *pointed, weights, options).run(centre->point, part);
+      centre = CentreDescent(**directions, *pointed, weights, options).run(centre->point, part);
     }
     if (!centre && centre.error().code == ErrorCode::kBadInput) {
       refused = centre.error();

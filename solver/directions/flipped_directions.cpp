@@ -8,7 +8,7 @@
 namespace geotherm {
 namespace {
 
-double angle_between(const Eigen::Vector2d& from, const Eigen::Vector2d& to) {
+double turn_between(const Eigen::Vector2d& from, const Eigen::Vector2d& to) {
   return std::atan2(cross(from, to), from.dot(to));
 }
 
@@ -22,10 +22,10 @@ void carry(const Edit& flip, std::vector<double>& begin) {
   const FlipDiamond at = unfold(flip.numbers);
   begin[f] = ca;
   begin[f + 1] = ad;
-  begin[f + 2] = db + angle_between(at.b - at.d, at.c - at.d);  // from d to c
+  begin[f + 2] = db + turn_between(at.b - at.d, at.c - at.d);  // from d to c
   begin[g] = db;
   begin[g + 1] = bc;
-  begin[g + 2] = ca + angle_between(at.a - at.c, at.d - at.c);  // from c to d
+  begin[g + 2] = ca + turn_between(at.a - at.c, at.d - at.c);  // from c to d
 }
 
 }  // namespace

@@ -19,7 +19,7 @@ namespace {
 constexpr int kMaxHalvings = 5;
 
 /// How a point is to go: from its place in a direction.
-struct Move {
+struct SampleMove {
   double direction = 0, length = 0;
 };
 

@@ -17,7 +17,7 @@ namespace geotherm {
 namespace {
 
 using Point2 = Eigen::Vector2d;
-using Layout = std::array<Point2, 3>;
+using CurveLayout = std::array<Point2, 3>;
 
 /// Which parts the curves cut the surface into, and on which side of them each is.
 class Parts {
@@ -70,7 +70,7 @@ class Parts {
     for (std::size_t begin = 0, end = 0; begin < pieces.size(); begin = end) {
       const Index face = pieces[begin].face;
       while (end < pieces.size() && pieces[end].face == face) ++end;
-      const Layout at = state_.layout(face);
+      const CurveLayout at = state_.layout(face);
       for (int k = 0; k < 3; ++k) {
         if (on_curve(state_.paths.face(face)[k])) continue;
         const double side = side_of(at, at[k], {pieces.data() + begin, pieces.data() + end});
@@ -81,7 +81,8 @@ class Parts {
     }
   }
 
-  static double side_of(const Layout& at, const Point2& p, std::span<const CurvePiece> pieces) {
+  static double side_of(const CurveLayout& at, const Point2& p,
+                        std::span<const CurvePiece> pieces) {
     constexpr double kAsNear = 1e-9, kOnTheLine = 1e-12;
     double nearest = kUnreached, side = 0;
     const double size = (at[1] - at[0]).norm() + (at[2] - at[0]).norm();
@@ -109,7 +110,7 @@ class Parts {
 SourceSeeds seeds_of(const Directions::State& state, const CurvePieces& curves) {
   SourceSeeds seeds;
   for (const CurvePiece& piece : curves.pieces) {
-    const Layout at = state.layout(piece.face);
+    const CurveLayout at = state.layout(piece.face);
     seeds.pieces.push_back({piece.face, place_of(at, piece.from), place_of(at, piece.to), 0, 0});
   }
   for (Index v = 0; v < static_cast<Index>(curves.on_curve.size()); ++v) {

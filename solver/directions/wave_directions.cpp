@@ -18,7 +18,7 @@ using direction_waves::Fit;
 using direction_waves::fit_wave;
 using Point2 = Eigen::Vector2d;
 
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+constexpr double kNoDirection = std::numeric_limits<double>::quiet_NaN();
 /// Where a second way is longer by less than close_share() of it, and leaves the source in a
 /// direction that differs by so many radians, waves cannot tell which is the shortest.
 constexpr double kOtherWay = 0.2;
@@ -40,7 +40,7 @@ class DirectionPass {
         count_(static_cast<std::size_t>(tables.vertex_count())),
         direction_(count_ + static_cast<std::size_t>(samples) *
                                 static_cast<std::size_t>(tables.edge_count()),
-                   kNone),
+                   kNoDirection),
         in_doubt_(direction_.size(), 0) {}
 
   WaveDirections run() {
@@ -63,7 +63,7 @@ class DirectionPass {
         set_sample(node);
       }
     }
-    WaveDirections out{std::vector<double>(tables_.rank_of_vertex.size(), kNone), 0};
+    WaveDirections out{std::vector<double>(tables_.rank_of_vertex.size(), kNoDirection), 0};
     for (std::size_t v = 0; v < out.of.size(); ++v) {
       const Index rank = tables_.rank_of_vertex[v];
       if (rank == kNoIndex) continue;
@@ -76,7 +76,7 @@ class DirectionPass {
  private:
   /// A way to a node, and the node beside which it comes in.
   struct Way {
-    double value = kUnreached, direction = kNone;
+    double value = kUnreached, direction = kNoDirection;
     std::size_t from = 0;
   };
 

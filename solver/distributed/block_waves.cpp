@@ -10,7 +10,7 @@ namespace geotherm {
 namespace {
 
 /// Two lengths of one edge, as two blocks have them, differ by no more than this share.
-constexpr double kSameLength = 1e-6;
+constexpr double kSameSeedLength = 1e-6;
 
 /// Marks faces at own vertices, and those beyond where two cut sides have the same ends: they would
 /// be taken for one edge.
@@ -77,7 +77,7 @@ Result<std::shared_ptr<const WaveSurface>> piece_of(const MeshBlock& block) {
 
 bool is_same(const EdgeName& a, const EdgeName& b) {
   return a.low == b.low && a.high == b.high &&
-         std::abs(a.length - b.length) <= kSameLength * a.length;
+         std::abs(a.length - b.length) <= kSameSeedLength * a.length;
 }
 
 }  // namespace

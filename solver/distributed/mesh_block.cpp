@@ -18,10 +18,10 @@ constexpr int kMargins[] = {4, 12, 36};
 constexpr int kLeastRings = 6;
 
 /// What a block says of the triangles at a vertex, in MeshPart::unit: others must say the same.
-struct Star {
+struct BlockStar {
   double stiffness = 0, mass = 0, corners = 0;
 
-  bool agrees(const Star& other) const {
+  bool agrees(const BlockStar& other) const {
     constexpr double kRoundOff = 1e-6;
     return std::abs(mass - other.mass) <= kRoundOff * mass &&
            std::abs(corners - other.corners) <= kRoundOff * corners &&
@@ -37,10 +37,10 @@ double mark_of(GlobalIndex id) {
 }
 
 /// The star of each row.
-std::vector<Star> stars_of(const MeshPart& part, const MeshBlock& block) {
+std::vector<BlockStar> stars_of(const MeshPart& part, const MeshBlock& block) {
   const OperatorMesh& mesh = *block.surface->operators;
   const double square = block.surface->unit * block.surface->unit;
-  std::vector<Star> stars(static_cast<std::size_t>(mesh.size()));
+  std::vector<BlockStar> stars(static_cast<std::size_t>(mesh.size()));
   for (Index f = 0; f < mesh.face_count(); ++f) {
     const Face& face = mesh.faces[f];
     const double area = mesh.layout[f].base * mesh.layout[f].height * square / 2;
@@ -117,11 +117,11 @@ class BlockBuilder {
 
 /// Finds how far a block's triangles are those of the owners, and holds what lies beyond. False
 /// where that is not far enough.
-bool hold_beyond(const MeshPart& part, const std::vector<Star>& owners, int rings,
+bool hold_beyond(const MeshPart& part, const std::vector<BlockStar>& owners, int rings,
                  MeshBlock& block) {
   const Surface& surface = *block.surface;
   const OperatorMesh& mesh = *surface.operators;
-  const std::vector<Star> stars = stars_of(part, block);
+  const std::vector<BlockStar> stars = stars_of(part, block);
   const auto ring_of = [&](Index here) {
     return static_cast<int>(std::ranges::upper_bound(block.ring_begin, here) -
                             block.ring_begin.begin());
@@ -175,10 +175,10 @@ Result<std::vector<MeshBlock>> build_blocks(const RankGroup& ranks, const BlockR
       return {};
     };
     if (auto built = ranks.agree(build_all()); !built) return built.error();
-    std::vector<Star> owners(static_cast<std::size_t>(part.size()));
+    std::vector<BlockStar> owners(static_cast<std::size_t>(part.size()));
     for (const MeshBlock& block : blocks) {
       if (!block.surface) continue;
-      const std::vector<Star> stars = stars_of(part, block);
+      const std::vector<BlockStar> stars = stars_of(part, block);
       for (Index here = 0; here < block.own(); ++here) {
         if (block.row(here) != kNoIndex) owners[block.vertex[here]] = stars[block.row(here)];
       }

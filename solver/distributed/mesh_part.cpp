@@ -5,6 +5,7 @@
 #include <limits>
 #include <tuple>
 
+#include "solver/core/sorting.h"
 #include "solver/mesh/connectivity.h"
 
 namespace geotherm {
@@ -27,15 +28,6 @@ struct CurveVertex {
 
   auto place() const { return std::tuple(key, file_id); }
 };
-
-/// 21 bits with two places between each.
-std::uint64_t spread_bits(std::uint64_t x) {
-  x = (x | x << 32) & 0x1f00000000ffff;
-  x = (x | x << 16) & 0x1f0000ff0000ff;
-  x = (x | x << 8) & 0x100f00f00f00f00f;
-  x = (x | x << 4) & 0x10c30c30c30c30c3;
-  return (x | x << 2) & 0x1249249249249249;
-}
 
 /// Morton's order within the box of all ranks' vertices.
 std::vector<CurveVertex> along_curve(const RankGroup& ranks, const MeshSlice& slice) {

@@ -16,7 +16,7 @@ namespace {
 /// Cotangent sums down to this are accepted. Cocircular corners, as in every mesh of rectangles,
 /// would otherwise flip back and forth, driven by the rounding of the coordinates (1e-7 of an edge
 /// for a model that stands a million of its sizes away from the origin).
-constexpr double kTolerance = 1e-6;
+constexpr double kFlipTolerance = 1e-6;
 
 /// Flips between two calls of progress: a few milliseconds.
 constexpr std::size_t kFlipsBetweenCalls = 1 << 14;
@@ -81,7 +81,7 @@ bool flip_next(IntrinsicMesh& mesh, std::vector<Side>& queue, std::vector<Edit>&
   queue.pop_back();
   const Side other = mesh.twin[side];
   if (other == kNoSide || face_of(other) == face_of(side)) return false;
-  if (!(weight(mesh, side) < -kTolerance)) return false;
+  if (!(weight(mesh, side) < -kFlipTolerance)) return false;
   const Edit made = flip(mesh, side);
   edits.push_back(made);
   for (const Index face : {made.f, made.g}) {
@@ -99,7 +99,7 @@ Index add_faces(IntrinsicMesh& mesh, int count) {
 }
 
 /// A face that a vertex p on its side ab cuts in two: it becomes (a, p, c), `fresh` (p, b, c).
-struct Cut {
+struct SideCut {
   Index face, fresh;
   int start;  ///< the corner that is a
   Index a, b, c;
@@ -107,7 +107,7 @@ struct Cut {
   double ap, pb, bc, ca, cp;
   Side old_bc, old_ca, twin_bc = kNoSide, twin_ca = kNoSide;
 
-  Cut(const IntrinsicMesh& mesh, Side side, double at, Index fresh_face)
+  SideCut(const IntrinsicMesh& mesh, Side side, double at, Index fresh_face)
       : face(face_of(side)), fresh(fresh_face), start(corner_of(side)), share(at) {
     const int i = start, j = next_corner(i), k = previous_corner(i);
     a = mesh.faces[face][i];
@@ -139,7 +139,7 @@ std::vector<Side> non_delaunay_sides(const IntrinsicMesh& mesh, int threads) {
       // Two angles of at most 90 degrees, as at most edges: their cotangents need not be known.
       const bool in_doubt = may_be_obtuse(mesh.lengths[face_of(side)], corner_of(side)) ||
                             may_be_obtuse(mesh.lengths[face_of(other)], corner_of(other));
-      if (in_doubt && weight(mesh, side) < -kTolerance) {
+      if (in_doubt && weight(mesh, side) < -kFlipTolerance) {
         found[static_cast<std::size_t>(piece)].push_back(side);
       }
     }
@@ -183,27 +183,27 @@ std::vector<Side> split_side(IntrinsicMesh& mesh, Side side, double share, Index
   const Side other = mesh.twin[side];
   const bool inner = other != kNoSide;
   const Index first = add_faces(mesh, inner ? 2 : 1);
-  std::vector<Cut> cuts{Cut(mesh, side, share, first)};
+  std::vector<SideCut> cuts{SideCut(mesh, side, share, first)};
   if (inner) {
-    Cut& beyond = cuts.emplace_back(mesh, other, 1 - share, first + 1);
+    SideCut& beyond = cuts.emplace_back(mesh, other, 1 - share, first + 1);
     beyond.ap = cuts[0].pb;  // to the last bit
     beyond.pb = cuts[0].ap;
   }
   // A twin may be a side of the two faces themselves, which moves with the cut.
   const auto moved = [&](Side s) {
-    for (const Cut& cut : cuts) {
+    for (const SideCut& cut : cuts) {
       if (s == cut.old_bc) return Side{3 * cut.fresh + 1};
       if (s == cut.old_ca) return Side{3 * cut.face + 2};
     }
     return s;
   };
-  for (Cut& cut : cuts) {
+  for (SideCut& cut : cuts) {
     cut.twin_bc = moved(mesh.twin[cut.old_bc]);
     cut.twin_ca = moved(mesh.twin[cut.old_ca]);
   }
   std::vector<Side> around;
   for (std::size_t i = 0; i < cuts.size(); ++i) {
-    const Cut& cut = cuts[i];
+    const SideCut& cut = cuts[i];
     const Side beyond_ap = inner ? 3 * cuts[1 - i].fresh : kNoSide;
     const Side beyond_pb = inner ? 3 * cuts[1 - i].face : kNoSide;
     mesh.set_face(cut.face, {cut.a, vertex, cut.c}, {cut.ap, cut.cp, cut.ca},

@@ -21,7 +21,7 @@ constexpr double kAim = 1.1 * kStrict;
 /// Faces below this size, in mean edges, are points: their areas would leave the doubles' range.
 constexpr double kPointLength = 1e-70;
 /// Rounds at most: ordinary files take three.
-constexpr int kMaxRounds = 100;
+constexpr int kMaxFlipRounds = 100;
 
 /// The length by which the triangle inequality over side k fails to be strict; at most 0 where it
 /// is strict enough.
@@ -73,7 +73,7 @@ class LocalRepair {
   /// In rounds, each of which sees the lengths that the one before has left: the order of faces
   /// does not matter. False where the work does not end.
   bool run(std::vector<Index> active) {
-    for (int round = 0; round < kMaxRounds; ++round) {
+    for (int round = 0; round < kMaxFlipRounds; ++round) {
       std::vector<Index> called;
       for (const Index f : active) ask_for(f, called);
       if (called.empty()) return true;

@@ -155,7 +155,7 @@ std::vector<double> gradings(const IntrinsicMesh& mesh, const Components& parts,
 }
 
 /// Where a walk over the triangulation ends: in a face, or at a side of the boundary.
-struct Place {
+struct Circumcentre {
   Index face = kNoIndex;
   Weights weights{};
   Side border = kNoSide;
@@ -163,7 +163,7 @@ struct Place {
 
 /// Walks straight from the middle of a face to its circumcentre. Neither a face nor a boundary side
 /// is returned where rounding has led the walk astray.
-Place find_circumcentre(const IntrinsicMesh& mesh, Index face) {
+Circumcentre find_circumcentre(const IntrinsicMesh& mesh, Index face) {
   constexpr int kMaxSteps = 1000;  // walks within the circumcircle are a few faces long
   const FaceLayout p = lay_out(mesh.lengths[face]);
   std::array<Point2, 3> at = {Point2(0, 0), Point2(p.base, 0), Point2(p.x, p.height)};
@@ -277,7 +277,7 @@ class Refiner {
 
   /// Splits a face at its circumcentre, or the boundary edge on the way to that.
   void split_large(Index face) {
-    const Place place = find_circumcentre(mesh_, face);
+    const Circumcentre place = find_circumcentre(mesh_, face);
     if (place.border != kNoSide) return insert_on_side(place.border, 0.5);
     if (place.face == kNoIndex) return split_longest(face);
     int small = 0, at = 0;

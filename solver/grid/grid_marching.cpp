@@ -21,7 +21,7 @@ bool is_same(double slowness, double other) {
   return std::abs(slowness - other) <= kRoundOff * other;
 }
 
-using Place = std::array<double, 3>;  ///< in samples along the D axes
+using GridPlace = std::array<double, 3>;  ///< in samples along the D axes
 
 /// One query.
 class GridMarch {
@@ -53,9 +53,9 @@ class GridMarch {
                        " is not there, or has not a weight for each of its corners"};
     }
     const GridCell cell = lattice_.cell(point.cell);
-    Place at{};
+    GridPlace at{};
     for (int k = 0; k < cell.count; ++k) {
-      const Place corner = place_of(cell.corners[k]);
+      const GridPlace corner = place_of(cell.corners[k]);
       for (int e = 0; e < d_; ++e) at[e] += point.weights[k] * corner[e];
     }
     sources_.push_back({at, 0, cell.slowness});
@@ -98,7 +98,7 @@ class GridMarch {
  private:
   enum : std::uint8_t { kFinal = 1, kSees = 2 };
   struct Source {
-    Place place;
+    GridPlace place;
     double offset, slowness;
   };
   struct News {
@@ -113,12 +113,12 @@ class GridMarch {
   Index coordinate(Index v, int e) const {
     return e + 1 < d_ ? v % lattice_.stride(e + 1) / lattice_.stride(e) : v / lattice_.stride(e);
   }
-  Place place_of(Index v) const {
-    Place out{};
+  GridPlace place_of(Index v) const {
+    GridPlace out{};
     for (int e = 0; e < d_; ++e) out[e] = coordinate(v, e);
     return out;
   }
-  double line_from(const Source& source, const Place& at) const {
+  double line_from(const Source& source, const GridPlace& at) const {
     double square = 0;
     for (int e = 0; e < d_; ++e) {
       const double along = (at[e] - source.place[e]) * lattice_.spacing(e);
@@ -214,8 +214,8 @@ class GridMarch {
   bool see(Index v, Index source) {
     if (is(v, kSees) && nearest_[v] == source) return true;
     const Source& s = sources_[source];
-    const Place at = place_of(v);
-    Place way{};  // to the source, in samples
+    const GridPlace at = place_of(v);
+    GridPlace way{};  // to the source, in samples
     int main = 0;
     for (int e = 0; e < d_; ++e) {
       way[e] = s.place[e] - at[e];
@@ -256,7 +256,7 @@ class GridMarch {
 
   /// Whether a cell is there on the line's way, of this slowness: on either side of the line where
   /// it runs inside a face.
-  bool is_free(Index v, std::array<int, 3> steps, const Place& way, double slowness) const {
+  bool is_free(Index v, std::array<int, 3> steps, const GridPlace& way, double slowness) const {
     for (int k = 0; k < 1 << d_; ++k) {
       bool tried = true;
       for (int e = 0; e < d_; ++e) tried = tried && ((k >> e & 1) == 0 || way[e] == 0);

@@ -82,10 +82,6 @@ std::string vti_bytes(const Grid& grid, const GridData& data) {
   return text + "\n</AppendedData>\n</VTKFile>\n";
 }
 
-std::string extension_of(const std::string& path) {
-  return path == "-" ? ".csv" : io::file_extension(path);
-}
-
 /// Whether the numbers have a value for each sample, and the file a place for them.
 Result<void> check_grid_values(const std::string& path, const Grid& grid, const GridData& data) {
   const auto samples = static_cast<std::size_t>(grid.sample_count());
@@ -93,7 +89,7 @@ Result<void> check_grid_values(const std::string& path, const Grid& grid, const 
   if (wrong == samples && !data.nearest.empty()) wrong = data.nearest.size();
   for (const DataField& field : data.fields) {
     if (wrong == samples) wrong = field.values.size();
-    if (field.place != DataField::Place::kVertices || extension_of(path) == ".npy") {
+    if (field.place != DataField::Place::kVertices || io::written_extension(path) == ".npy") {
       return Error{ErrorCode::kNotAvailable,
                    io::printable(path) + ": there is no place for the field \"" +
                        io::printable(field.name) + '"',
@@ -108,7 +104,7 @@ Result<void> check_grid_values(const std::string& path, const Grid& grid, const 
 }  // namespace
 
 Result<void> check_grid_distances_path(const std::string& path) {
-  const std::string extension = extension_of(path);
+  const std::string extension = io::written_extension(path);
   if (extension == ".csv" || extension == ".npy" || extension == ".vti") return {};
   return Error{
       ErrorCode::kNotAvailable,
@@ -122,7 +118,7 @@ Result<void> write_distances(const std::string& path, const Grid& grid,
   if (auto known = check_grid_distances_path(path); !known) return known;
   const GridData data{distances, nearest, fields};
   if (auto fits = check_grid_values(path, grid, data); !fits) return fits;
-  const std::string extension = extension_of(path);
+  const std::string extension = io::written_extension(path);
   if (extension == ".vti") return write_file(path, vti_bytes(grid, data));
   if (extension == ".npy") return write_file(path, grid_npy_bytes(grid, data));
   return write_file(path, io::csv_bytes(distances, nearest, fields));

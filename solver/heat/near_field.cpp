@@ -73,9 +73,9 @@ class Numbering {
 
 /// The faces around the sources of a component as a surface of their own. Rows and faces have
 /// numbers of their own here.
-class Neighbourhood {
+class Surroundings {
  public:
-  Neighbourhood(const Surface& surface, const SourceAnchors& anchors, Index component)
+  Surroundings(const Surface& surface, const SourceAnchors& anchors, Index component)
       : surface_(surface),
         mesh_(*surface.operators),
         per_length_(1 / (surface.components[component].mean_edge *
@@ -301,7 +301,7 @@ Result<void> add_component(const Surface& surface, const SourceAnchors& anchors,
     march_in_component(surface, anchors, component, out);
     return {};
   }
-  Neighbourhood near(surface, anchors, component);
+  Surroundings near(surface, anchors, component);
   const std::size_t faces = faces_worth_walking(size, near.source_count());
   near.gather(faces);
   const auto local = near.surface();

@@ -27,7 +27,7 @@ constexpr double kRoom = 1.5;
 
 /// The straight line may pass beside the side by this share of it, at a corner that both sides of
 /// it meet.
-constexpr double kTolerance = 1e-9;
+constexpr double kCrossingTolerance = 1e-9;
 /// Up to this share of the limit heat's distance does not count.
 constexpr double kHeatless = 0.5;
 
@@ -78,30 +78,31 @@ class Reached {
 };
 
 /// A place in the plane of a face.
-struct Place {
+struct PlanePlace {
   double x, y;
 };
 
 double length_of(double x, double y) { return std::sqrt(x * x + y * y); }
 
-std::array<Place, 3> places_of(const FaceLayout& face) {
-  return {Place{0, 0}, Place{face.base, 0}, Place{face.x, face.height}};
+std::array<PlanePlace, 3> places_of(const FaceLayout& face) {
+  return {PlanePlace{0, 0}, PlanePlace{face.base, 0}, PlanePlace{face.x, face.height}};
 }
 
 /// From the source, which is `from_a` away from a and `from_b` from b and lies beyond them, to
 /// `target`; kUnreached where the straight line does not pass between a and b.
-double straight_through(const Place& a, const Place& b, const Place& target, double from_a,
-                        double from_b) {
-  const Place side{b.x - a.x, b.y - a.y}, apart{target.x - a.x, target.y - a.y};
+double straight_through(const PlanePlace& a, const PlanePlace& b, const PlanePlace& target,
+                        double from_a, double from_b) {
+  const PlanePlace side{b.x - a.x, b.y - a.y}, apart{target.x - a.x, target.y - a.y};
   const double length = length_of(side.x, side.y);
   const double along = (side.x * apart.x + side.y * apart.y) / length;
   const double height = std::abs(side.x * apart.y - side.y * apart.x) / length;
   const double source = (length + (from_a - from_b) * (from_a + from_b) / length) / 2;
   const double square = (from_a - source) * (from_a + source);
-  if (!(square >= -kTolerance * length * length)) return kUnreached;
+  if (!(square >= -kCrossingTolerance * length * length)) return kUnreached;
   const double depth = std::sqrt(std::max(square, 0.0));
   const double crossing = source + (along - source) * depth / (depth + height);
-  const bool passes = crossing >= -kTolerance * length && crossing <= (1 + kTolerance) * length;
+  const bool passes =
+      crossing >= -kCrossingTolerance * length && crossing <= (1 + kCrossingTolerance) * length;
   return passes ? length_of(along - source, depth + height) : kUnreached;
 }
 

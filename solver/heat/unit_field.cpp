@@ -21,8 +21,8 @@ constexpr double kSafeHigh = 1e280;
 
 /// Diffusion lengths, as shares of the extent, between which shortening fades out. Measured against
 /// exact distances: below the first it helps, above the second it harms.
-constexpr double kShort = 0.15;
-constexpr double kLong = 0.35;
+constexpr double kShortDiffusion = 0.15;
+constexpr double kLongDiffusion = 0.35;
 
 /// Widths of a component, area over extent, in diffusion lengths, between which it counts as narrow
 /// and no longer. Measured against exact distances on stretched planes and strips.
@@ -202,8 +202,11 @@ void FaceField::measure_trust(const Block& high, const Block& low) {
   bool whole = width_.empty();
   for (std::size_t e = 0; e < trust.size(); ++e) {
     const double fall = high.data()[e] - low.data()[e];
-    if (!(fall * kShort < 1) || fall < 0) continue;  // also: no heat in this component
-    trust[e] *= fall > 0 ? std::clamp((kLong - 1 / fall) / (kLong - kShort), 0.0, 1.0) : 0.0;
+    if (!(fall * kShortDiffusion < 1) || fall < 0) continue;  // also: no heat in this component
+    trust[e] *=
+        fall > 0
+            ? std::clamp((kLongDiffusion - 1 / fall) / (kLongDiffusion - kShortDiffusion), 0.0, 1.0)
+            : 0.0;
     whole = false;
   }
   if (!whole) trust_ = std::move(trust);

@@ -157,7 +157,7 @@ ColumnFactorData column_data(const cholmod_factor& factor) {
   return out;
 }
 
-Error out_of_memory(const char* stage, Index size) {
+Error cholmod_out_of_memory(const char* stage, Index size) {
   return {ErrorCode::kOutOfMemory,
           std::string("ran out of memory in the ") + stage + " of a matrix of size " +
               std::to_string(size),
@@ -198,16 +198,17 @@ class CholmodAnalysis final : public Analysis {
     }
     BlasThreads blas(options.threads);
     if (structure_ && !blas.has_room(forecast_.factor + forecast_.work)) {
-      return out_of_memory("factorisation", matrix->size());
+      return cholmod_out_of_memory("factorisation", matrix->size());
     }
     const LowerMatrix& lower = matrix->assembled();
     CholmodMatrix<Int> input(lower.start, lower.row, lower.value.data());
     auto numeric = std::make_shared<CholmodFactor<Int>>();
     numeric->factor = CholmodApi<Int>::copy(symbolic_->factor, &numeric->common);
-    if (numeric->factor == nullptr) return out_of_memory("factorisation", matrix->size());
+    if (numeric->factor == nullptr) return cholmod_out_of_memory("factorisation", matrix->size());
     CholmodApi<Int>::factorize(input.get(), numeric->factor, &numeric->common);
     const int status = numeric->common.status;
-    if (status == CHOLMOD_OUT_OF_MEMORY) return out_of_memory("factorisation", matrix->size());
+    if (status == CHOLMOD_OUT_OF_MEMORY)
+      return cholmod_out_of_memory("factorisation", matrix->size());
     if (status < CHOLMOD_OK || numeric->factor->minor < numeric->factor->n) {
       return not_definite(numeric->factor->minor, numeric->factor->n, status);
     }
@@ -289,7 +290,7 @@ Result<std::shared_ptr<const Analysis>> analyze(const SymmetricPattern& pattern,
   symbolic->factor =
       CholmodApi<Int>::analyze(input.get(), given.data(), nullptr, 0, &symbolic->common);
   if (symbolic->common.status == CHOLMOD_TOO_LARGE) return std::shared_ptr<const Analysis>();
-  if (symbolic->factor == nullptr) return out_of_memory("analysis", pattern.size());
+  if (symbolic->factor == nullptr) return cholmod_out_of_memory("analysis", pattern.size());
 
   // From here on matrices come in elimination order: tell CHOLMOD that nothing is permuted.
   auto* permutation = static_cast<Int*>(symbolic->factor->Perm);

@@ -10,7 +10,7 @@ namespace geotherm {
 namespace {
 
 /// The rows of a window, those of the last ring included, which are beyond it.
-struct Window {
+struct RowWindow {
   std::vector<Index> rows;
   std::size_t inside = 0;
   std::vector<int> start = {0}, column;  ///< of all rows
@@ -18,9 +18,9 @@ struct Window {
 };
 
 /// So many rings around the support; empty where they are more than half of the matrix.
-Window window_around(const MatrixRows& matrix, Index size, std::span<const Index> support,
-                     int rings) {
-  Window window;
+RowWindow window_around(const MatrixRows& matrix, Index size, std::span<const Index> support,
+                        int rings) {
+  RowWindow window;
   std::vector<Index> local(static_cast<std::size_t>(size), kNoIndex);
   const auto add = [&](Index i) {
     if (local[i] == kNoIndex) {
@@ -55,7 +55,7 @@ Window window_around(const MatrixRows& matrix, Index size, std::span<const Index
 }
 
 /// y = M x on these rows of the window.
-void multiply(const Window& window, std::size_t begin, std::size_t end,
+void multiply(const RowWindow& window, std::size_t begin, std::size_t end,
               const std::vector<double>& x, std::vector<double>& y) {
   for (std::size_t i = begin; i < end; ++i) {
     double sum = 0;
@@ -67,7 +67,7 @@ void multiply(const Window& window, std::size_t begin, std::size_t end,
 }
 
 /// x of r, which is used up; the iterations, more than `budget` where it did not get there.
-int conjugate_gradients(const Window& window, std::vector<double>& r, std::vector<double>& x,
+int conjugate_gradients(const RowWindow& window, std::vector<double>& r, std::vector<double>& x,
                         double wanted, int budget) {
   const std::size_t n = window.inside;
   std::vector<double> z(window.rows.size(), 0.0), p, q(n);  // z and p are 0 beyond
@@ -124,7 +124,7 @@ int WindowSolver::solve(Block& x, Eigen::Index column, std::span<const Index> su
   constexpr double kMore = 1.5;
   double rings = 2 - length_ * std::log(tolerance);
   for (;; rings *= kMore) {
-    const Window window = window_around(rows_, size_, asked, static_cast<int>(rings));
+    const RowWindow window = window_around(rows_, size_, asked, static_cast<int>(rings));
     if (window.inside == 0) return 0;
     std::vector<double> r(window.rows.size(), 0.0), found(r);
     double start = 0;

@@ -59,12 +59,12 @@ struct BoxBins {
   }
 };
 
-struct Cut {
+struct BinCut {
   int bin = -1;  // the first of the right part; -1: no cut has items on both sides
   float cost = std::numeric_limits<float>::infinity();  // area times items
 };
 
-Cut best_cut(std::span<const BoxItem> items, const BoxBins& bins) {
+BinCut best_cut(std::span<const BoxItem> items, const BoxBins& bins) {
   std::array<FloatBox, kSplitBins> boxes;
   std::array<std::size_t, kSplitBins> counts{};
   for (const BoxItem& item : items) {
@@ -80,7 +80,7 @@ Cut best_cut(std::span<const BoxItem> items, const BoxBins& bins) {
     count += counts[b - 1];
     left_cost[b] = area(box) * static_cast<float>(count);
   }
-  Cut best;
+  BinCut best;
   box = {};
   count = 0;
   for (std::size_t b = kSplitBins - 1; b > 0; --b) {
@@ -97,7 +97,7 @@ Cut best_cut(std::span<const BoxItem> items, const BoxBins& bins) {
 std::size_t split(std::span<BoxItem> items, const BoxExtent& extent, int depth) {
   if (items.size() <= 1) return 0;
   const BoxBins bins(extent.centres);
-  const Cut cut = depth < kHalvesFrom && bins.scale > 0 ? best_cut(items, bins) : Cut{};
+  const BinCut cut = depth < kHalvesFrom && bins.scale > 0 ? best_cut(items, bins) : BinCut{};
   if (items.size() <= kBoxLeaf) {
     const float whole = area(extent.boxes);
     const float as_leaf = whole * static_cast<float>(items.size());

@@ -188,7 +188,7 @@ namespace {
 
 using Weights = std::array<double, 3>;
 
-struct Candidate {
+struct ClosestPlace {
   Weights weights{};
   double distance = std::numeric_limits<double>::infinity();
 };
@@ -213,13 +213,13 @@ LocalTriangle around(const Vec3& query, const std::array<Vec3, 3>& corners) {
 
 /// The distance is measured at the point that the weights give, so that it is honest even where
 /// the weights of a needle are not.
-void offer(const LocalTriangle& t, const Weights& w, Candidate& best) {
+void offer(const LocalTriangle& t, const Weights& w, ClosestPlace& best) {
   const double distance =
       t.unit * (w[0] * t.corners[0] + w[1] * t.corners[1] + w[2] * t.corners[2]).norm();
   if (distance < best.distance) best = {w, distance};
 }
 
-void offer_inside(const LocalTriangle& t, Candidate& best) {
+void offer_inside(const LocalTriangle& t, ClosestPlace& best) {
   const auto& [a, b, c] = t.corners;
   const Vec3 normal = (b - a).cross(c - a);
   Weights w = {b.cross(c).dot(normal), c.cross(a).dot(normal), a.cross(b).dot(normal)};
@@ -229,7 +229,7 @@ void offer_inside(const LocalTriangle& t, Candidate& best) {
   offer(t, w, best);
 }
 
-void offer_side(const LocalTriangle& t, int k, Candidate& best) {
+void offer_side(const LocalTriangle& t, int k, ClosestPlace& best) {
   const int next = k == 2 ? 0 : k + 1;
   const Vec3 along = t.corners[next] - t.corners[k];
   const double length2 = along.squaredNorm();
@@ -246,14 +246,14 @@ Result<ClosestPoint> closest_point(const TriangleMesh& mesh, const Vec3& query) 
   if (!query.allFinite()) {
     return Error{ErrorCode::kBadInput, "the point has a coordinate that is not finite"};
   }
-  Candidate best;
+  ClosestPlace best;
   Index best_face = kNoIndex;
   for (Index f = 0; f < mesh.face_count(); ++f) {
     const Face& face = mesh.faces()[f];
     if (face[0] == face[1] || face[1] == face[2] || face[2] == face[0]) continue;
     const LocalTriangle local = around(
         query, {mesh.positions()[face[0]], mesh.positions()[face[1]], mesh.positions()[face[2]]});
-    Candidate here;
+    ClosestPlace here;
     offer_inside(local, here);
     for (int k = 0; k < 3; ++k) offer_side(local, k, here);
     if (!(here.distance < best.distance)) continue;

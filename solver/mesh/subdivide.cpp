@@ -16,7 +16,7 @@ namespace geotherm {
 namespace {
 
 /// What TriangleMesh can number.
-constexpr std::int64_t kMax = std::numeric_limits<Index>::max() / 3;
+constexpr std::int64_t kMaxSplitFaces = std::numeric_limits<Index>::max() / 3;
 
 struct Arrays {
   std::vector<Vec3> positions;
@@ -65,7 +65,7 @@ void cut_into_four(Arrays& mesh) {
 /// How often at most, and the number of faces then.
 std::pair<int, std::int64_t> most_times(std::int64_t faces) {
   int times = 0;
-  for (; 4 * faces <= kMax; faces *= 4) ++times;
+  for (; 4 * faces <= kMaxSplitFaces; faces *= 4) ++times;
   return {times, faces};
 }
 
@@ -74,7 +74,7 @@ Result<void> check(std::int64_t faces, int times) {
   if (times >= 0 && times <= most) return {};
   return Error{ErrorCode::kBadInput,
                "a mesh of " + std::to_string(faces) + " faces cannot be refined " +
-                   std::to_string(times) + " times (at most " + std::to_string(kMax) +
+                   std::to_string(times) + " times (at most " + std::to_string(kMaxSplitFaces) +
                    " faces can be numbered)",
                {"refine it at most " + std::to_string(most) + " times, to " +
                 std::to_string(result) + " faces"}};

@@ -19,11 +19,6 @@ Error unknown_extension(const std::string& path, const std::string& known) {
           {"there are " + known}};
 }
 
-/// "-" is CSV.
-std::string extension_of(const std::string& path) {
-  return path == "-" ? ".csv" : io::file_extension(path);
-}
-
 /// Makes the bytes and writes them; building them may need more memory than there is.
 template <class MakeBytes>
 Result<void> write_made(const std::string& path, const MakeBytes& make_bytes) {
@@ -63,7 +58,7 @@ Result<void> check_field(const std::string& path, const DataField& field) {
                  io::printable(path) + ": a field is called \"" + io::printable(field.name) + "\"",
                  {"its name may hold letters, digits and _"}};
   }
-  const std::string extension = extension_of(path);
+  const std::string extension = io::written_extension(path);
   if (extension == ".ply" || extension == ".vtp" || extension == ".vtu") return {};
   const bool on_faces = field.place == DataField::Place::kFaces;
   if ((extension == ".csv" || extension == ".vti") && !on_faces) return {};
@@ -86,7 +81,7 @@ Result<void> write_distances(const std::string& path, const TriangleMesh& mesh,
                                            std::to_string(mesh.vertex_count()) + " vertices"};
   }
   return write_made(path, [&]() -> Result<std::string> {
-    const std::string extension = extension_of(path);
+    const std::string extension = io::written_extension(path);
     if (extension == ".npy") return io::npy_bytes(distances, nearest);
     if (extension == ".ply") return io::ply_bytes(mesh, distances, nearest, fields);
     if (extension == ".vtp") return io::vtp_bytes(mesh, distances, nearest, fields);

@@ -36,11 +36,11 @@ constexpr double kGraphError = 0.04;
 /// short ones on coarse meshes, a few long ones on fine meshes.
 constexpr std::size_t kMaxRoutes = 300, kMaxFaces = 20000;
 
-class Search {
+class PathSearch {
  public:
   /// `known`: a path no longer than that is the shortest; negative: none is known to be.
-  Search(const PathSurface& surface, const GeodesicEnds& ends, double known,
-         const Progress& progress)
+  PathSearch(const PathSurface& surface, const GeodesicEnds& ends, double known,
+             const Progress& progress)
       : surface_(surface),
         ends_(ends),
         known_(known),
@@ -147,7 +147,7 @@ class Search {
 Result<SurfacePath> search_geodesic(const PathSurface& surface, const GeodesicEnds& ends,
                                     double known, const Progress& progress) {
   return within_memory("a geodesic", *surface.mesh(), progress, [&](const Progress& watched) {
-    return Search(surface, ends, known, watched).run();
+    return PathSearch(surface, ends, known, watched).run();
   });
 }
 

@@ -36,7 +36,8 @@ double angle_at(const UnfoldedStrip& strip, const std::array<int, 3>& face, int 
 }
 
 /// The corner of a laid-out face that an end of the strip is, -1 where it is none.
-int corner_of(const UnfoldedStrip& strip, const std::array<int, 3>& face, const SurfacePoint& p) {
+int corner_in_strip(const UnfoldedStrip& strip, const std::array<int, 3>& face,
+                    const SurfacePoint& p) {
   for (const int corner : face) {
     if (p.is_vertex() && strip.corners[at(corner)].vertex == p.vertex) return corner;
   }
@@ -129,11 +130,11 @@ std::vector<PathSegment> pull_tight(const PathSurface& surface, const SurfacePoi
     segment.length = (b - a).norm();
     if (segment.from.is_vertex()) {
       const auto& face = strip.faces[at(low)];
-      segment.from_angle = angle_at(strip, face, corner_of(strip, face, segment.from), b);
+      segment.from_angle = angle_at(strip, face, corner_in_strip(strip, face, segment.from), b);
     }
     if (segment.to.is_vertex()) {
       const auto& face = strip.faces[at(high)];
-      segment.to_angle = angle_at(strip, face, corner_of(strip, face, segment.to), a);
+      segment.to_angle = angle_at(strip, face, corner_in_strip(strip, face, segment.to), a);
     }
     segments.push_back(std::move(segment));
   }

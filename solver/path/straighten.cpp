@@ -51,9 +51,9 @@ struct Node {
   bool closed = false;
 };
 
-class Link {
+class SegmentLink {
  public:
-  Link(const PathSurface& surface, Index vertex) {
+  SegmentLink(const PathSurface& surface, Index vertex) {
     for (const Index corner : surface.corners_at(vertex)) {
       arcs_.push_back(arc_of(surface, corner / 3, vertex));
       nodes_.push_back({arcs_.back().next});
@@ -135,7 +135,7 @@ std::optional<LinkRoute> narrowest_way(const PathSurface& surface, Index vertex,
   if (closed.empty() && from.face == to.face && std::abs(from.angle - to.angle) < limit) {
     best = {std::abs(from.angle - to.angle), {from.face}};
   }
-  Link link(surface, vertex);
+  SegmentLink link(surface, vertex);
   for (const Index neighbour : closed) link.close(neighbour);
   link.spread(first, from.angle, best.angle);
   const auto offer = [&](Index neighbour, double beyond) {

@@ -70,9 +70,9 @@ OverBase over_base(const Vec3& first, const Vec3& second, const Vec3& third) {
   return {base.dot(to) / length, base.cross(to).norm() / length};
 }
 
-class Layout {
+class StripLayout {
  public:
-  explicit Layout(const PathSurface& surface) : surface_(surface) {}
+  explicit StripLayout(const PathSurface& surface) : surface_(surface) {}
 
   void place_first(Index face, int apex) {
     const Face& f = surface_.face(face);
@@ -157,7 +157,7 @@ class Layout {
 
 UnfoldedStrip unfold(const PathSurface& surface, const SurfacePoint& from, const SurfacePoint& to,
                      const std::vector<Index>& faces) {
-  Layout layout(surface);
+  StripLayout layout(surface);
   layout.out.points.reserve(faces.size() + 4);
   layout.out.corners.reserve(faces.size() + 2);
   int apex = 0;

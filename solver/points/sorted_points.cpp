@@ -7,21 +7,12 @@
 #include <nanoflann.hpp>
 
 #include "solver/core/parallel.h"
+#include "solver/core/sorting.h"
 
 namespace geotherm {
 namespace {
 
 constexpr std::int64_t kPointsPerThread = 1 << 14;
-
-/// The lowest 21 bits of a number, two zeros between each and the next.
-std::uint64_t spread_bits(std::uint64_t x) {
-  x = (x | x << 32) & 0x001f00000000ffffu;
-  x = (x | x << 16) & 0x001f0000ff0000ffu;
-  x = (x | x << 8) & 0x100f00f00f00f00fu;
-  x = (x | x << 4) & 0x10c30c30c30c30c3u;
-  x = (x | x << 2) & 0x1249249249249249u;
-  return x;
-}
 
 /// The place on the curve of a point in the cube from -1 to 1.
 std::uint64_t place_on_curve(const Vec3& p) {

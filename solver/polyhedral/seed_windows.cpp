@@ -13,7 +13,7 @@ namespace {
 using Point2 = Eigen::Vector2d;
 
 /// The corners of a face in its layout.
-std::array<Point2, 3> corners_of(const WindowMesh& mesh, Index face) {
+std::array<Point2, 3> window_corners_of(const WindowMesh& mesh, Index face) {
   const auto& frame = mesh.side(3 * face);
   return {Point2(0, 0), Point2(frame.length, 0), Point2(frame.apex_x, frame.apex_y)};
 }
@@ -37,7 +37,7 @@ void keep_above_zero(double lower, double slope, double& begin, double& end) {
 }  // namespace
 
 void Propagation::seed_point(const SourceSeeds::Piece& piece, const StartDirections::Turn* turn) {
-  const auto corners = corners_of(mesh_, piece.face);
+  const auto corners = window_corners_of(mesh_, piece.face);
   for (int k = 0; k < 3; ++k) {
     const Side side = 3 * piece.face + k;
     const auto& frame = mesh_.side(side);
@@ -64,7 +64,7 @@ void Propagation::seed_point(const SourceSeeds::Piece& piece, const StartDirecti
 /// The segment sends a plane wave to both of its sides, as wide as itself. Its ends are sources of
 /// their own, or go on in the next face.
 void Propagation::seed_segment(const SourceSeeds::Piece& piece) {
-  const auto corners = corners_of(mesh_, piece.face);
+  const auto corners = window_corners_of(mesh_, piece.face);
   const double length = (piece.to - piece.from).norm();
   if (!(length > 0)) return seed_point(piece);
   const Point2 along = (piece.to - piece.from) / length;

@@ -14,9 +14,9 @@
 namespace geotherm {
 namespace {
 
-using Ends = std::pair<Index, Index>;
+using SideEnds = std::pair<Index, Index>;
 
-Ends ends_of(const IntrinsicMesh& mesh, Side side) {
+SideEnds ends_of(const IntrinsicMesh& mesh, Side side) {
   const Face& face = mesh.faces[face_of(side)];
   const int k = corner_of(side);
   return std::minmax({face[k], face[next_corner(k)]});
@@ -104,8 +104,8 @@ class FaceCarrier {
   const IntrinsicMesh &old_, &mesh_;
   WaveTables& tables_;
   std::vector<char> changed_;
-  std::vector<Index> free_;                   ///< edges between two of the faces, before
-  std::vector<std::pair<Ends, Index>> lone_;  ///< their edges whose sides have no twins
+  std::vector<Index> free_;                       ///< edges between two of the faces, before
+  std::vector<std::pair<SideEnds, Index>> lone_;  ///< their edges whose sides have no twins
   std::size_t next_ = 0;
 };
 

@@ -22,7 +22,7 @@ using app::PictureScale;
 using app::PictureSettings;
 
 // Positions are floats of size 1; sums of three of them.
-constexpr double kFloat = 1e-6;
+constexpr double kSceneRounding = 1e-6;
 
 Vec3 wide(const PictureData::Vector& v) { return {v[0], v[1], v[2]}; }
 
@@ -33,9 +33,9 @@ void expect_same_shape(const PictureData& data, const TriangleMesh& mesh) {
     const Vec3 place = wide(data.positions[static_cast<std::size_t>(v)]);
     radius = std::max(radius, place.norm());
     const Vec3 expected = (mesh.positions()[v] - data.centre) / data.model_per_scene;
-    EXPECT_LE((place - expected).norm(), kFloat) << v;
+    EXPECT_LE((place - expected).norm(), kSceneRounding) << v;
   }
-  EXPECT_NEAR(radius, 1, kFloat);
+  EXPECT_NEAR(radius, 1, kSceneRounding);
 }
 
 class PictureScene : public testing::TestWithParam<double> {};
@@ -57,7 +57,8 @@ TEST(PictureSceneOf, CoordinatesAtBothEndsOfTheDoublesIsFinite) {
   constexpr double kMax = 1.7e308;
   const MeshPtr mesh = finish({{{-kMax, 0, 0}, {kMax, 0, 0}, {0, kMax, -kMax}}, {{0, 1, 2}}});
   const PictureData data = picture_of(*mesh);
-  for (const PictureData::Vector& place : data.positions) EXPECT_LE(wide(place).norm(), 1 + kFloat);
+  for (const PictureData::Vector& place : data.positions)
+    EXPECT_LE(wide(place).norm(), 1 + kSceneRounding);
   EXPECT_TRUE(std::isfinite(data.model_per_scene));
 }
 
@@ -78,7 +79,7 @@ TEST(PictureOfAFrame, LiesInTheSceneOfAllFramesWhichTheCameraFits) {
   EXPECT_EQ(a.framed, b.framed);
   EXPECT_EQ(a.framed.size(), extent.size());
   const double moved = (wide(b.positions[0]) - wide(a.positions[0])).norm();
-  EXPECT_NEAR(moved * a.model_per_scene, 9, 9 * kFloat);
+  EXPECT_NEAR(moved * a.model_per_scene, 9, 9 * kSceneRounding);
 }
 
 TEST(PictureOfAFrame, KeepsTheScaleOfAnotherFrame) {
@@ -98,7 +99,7 @@ TEST(PictureSceneOf, PointsWithoutFacesDoNotCount) {
   const PictureData after = picture_of(*finish(draft));
   EXPECT_EQ(after.model_per_scene, before.model_per_scene);
   EXPECT_EQ(after.positions[0], before.positions[0]);
-  EXPECT_LE(wide(after.positions.back()).norm(), 1 + kFloat);
+  EXPECT_LE(wide(after.positions.back()).norm(), 1 + kSceneRounding);
 }
 
 TEST(PictureValues, AreSharesOfTheLargestDistance) {
@@ -136,7 +137,7 @@ TEST(PictureSources, ArePointsAndPiecesOfCurves) {
   const auto& [a, b, c] = data.faces[0];
   const Vec3 inside = 0.5 * wide(data.positions[a]) + 0.25 * wide(data.positions[b]) +
                       0.25 * wide(data.positions[c]);
-  EXPECT_LE((wide(data.sources[2].from) - inside).norm(), kFloat);
+  EXPECT_LE((wide(data.sources[2].from) - inside).norm(), kSceneRounding);
 }
 
 TEST(PictureFields, KeepTheHeatsDirectionWhereHeatUnderflows) {
@@ -170,14 +171,14 @@ TEST(PictureFields, HaveTheLengthOfTheAngleBetweenThem) {
     result.distances = {0, std::cos(degrees * kRadian), std::sin(degrees * kRadian)};
     PictureData data = picture_of(*mesh);
     app::add_fields(data, *mesh, result);
-    EXPECT_LE((wide(data.heat_directions[0]) - Vec3(1, 0, 0)).norm(), kFloat);
+    EXPECT_LE((wide(data.heat_directions[0]) - Vec3(1, 0, 0)).norm(), kSceneRounding);
     return wide(data.distance_gradients[0]).norm();
   };
-  EXPECT_NEAR(length_at(0), 0, kFloat);
-  EXPECT_NEAR(length_at(9), 0.1, kFloat);
-  EXPECT_NEAR(length_at(45), 0.5, kFloat);
-  EXPECT_NEAR(length_at(90), 1, kFloat);
-  EXPECT_NEAR(length_at(150), 1, kFloat);
+  EXPECT_NEAR(length_at(0), 0, kSceneRounding);
+  EXPECT_NEAR(length_at(9), 0.1, kSceneRounding);
+  EXPECT_NEAR(length_at(45), 0.5, kSceneRounding);
+  EXPECT_NEAR(length_at(90), 1, kSceneRounding);
+  EXPECT_NEAR(length_at(150), 1, kSceneRounding);
 }
 
 TEST(PictureFields, AreZeroWhereNothingIsReachedOrThereIsNoArea) {
@@ -197,7 +198,7 @@ TEST(PictureFields, AreZeroWhereNothingIsReachedOrThereIsNoArea) {
   ASSERT_EQ(data.heat_directions.size(), static_cast<std::size_t>(mesh->face_count()));
   for (Index f = 0; f < mesh->face_count(); ++f) {
     const double length = wide(data.heat_directions[f]).norm();
-    EXPECT_NEAR(length, f < reached ? 1 : 0, kFloat) << f;
+    EXPECT_NEAR(length, f < reached ? 1 : 0, kSceneRounding) << f;
     if (f < reached) continue;
     EXPECT_EQ(wide(data.distance_gradients[f]), Vec3::Zero()) << f;
   }
@@ -215,7 +216,7 @@ TEST(HeatDirection, IsThatOfTheHeatWhateverFactorItHas) {
   // The logarithm of a number of 20,000 digits keeps ten of its own.
   constexpr double kDigitsLeft = 1e-9;
   for (std::size_t f = 0; f < expected.size(); ++f) {
-    ASSERT_NEAR(expected[f].norm(), 1, kFloat);
+    ASSERT_NEAR(expected[f].norm(), 1, kSceneRounding);
     ASSERT_LE((expected[f] - actual[f]).norm(), kDigitsLeft);
   }
 }

@@ -16,7 +16,7 @@ using app::PictureScale;
 using app::PictureSettings;
 using app::View;
 
-constexpr float kFloat = 1e-6F;
+constexpr float kFloatRounding = 1e-6F;
 
 /// Distances 0 to 8 in model units, drawn as 0 to 1.
 PictureData solved() {
@@ -104,7 +104,7 @@ TEST(PictureSceneOfView, ShowsNoErrorWithoutColourAndBothSignsAlike) {
     const engine::Legend legend = app::legend_of(data, settings, scale);
     EXPECT_EQ(legend.title, "error of d");
     EXPECT_EQ(legend.ticks[legend.ticks.size() / 2].label, "0");
-    EXPECT_NEAR(legend.ticks[legend.ticks.size() / 2].position, 0.5F, kFloat);
+    EXPECT_NEAR(legend.ticks[legend.ticks.size() / 2].position, 0.5F, kFloatRounding);
     const auto& colours = legend.colours;
     const glm::vec3 zero = engine::oklab_of(colours[colours.size() / 2]);
     constexpr float kNeutral = 0.01F;  // of OKLab: not to be told from grey
@@ -171,9 +171,9 @@ TEST(PictureLegend, HasABarWithTicksAndIsolinesInPlace) {
   EXPECT_NE(legend.title.find("distance"), std::string::npos);
   ASSERT_EQ(legend.ticks.size(), 6U);
   EXPECT_EQ(legend.ticks[3].label, "6");
-  EXPECT_NEAR(legend.ticks[3].position, 0.6F, kFloat);
+  EXPECT_NEAR(legend.ticks[3].position, 0.6F, kFloatRounding);
   ASSERT_EQ(legend.lines.size(), 4U);  // at 2, 4, 6 and 8
-  EXPECT_NEAR(legend.lines[0], 0.2F, kFloat);
+  EXPECT_NEAR(legend.lines[0], 0.2F, kFloatRounding);
 }
 
 TEST(PictureLegend, LeavesOutWhatIsNotWanted) {
@@ -190,7 +190,7 @@ TEST(PictureLegend, TurnsItsColoursRoundAndItsInkWithTheBackground) {
   settings.reverse = true;
   settings.background = app::PictureBackground::kDark;
   const engine::Legend turned = legend_of(settings);
-  EXPECT_LE(glm::length(usual.colours.front() - turned.colours.back()), kFloat);
+  EXPECT_LE(glm::length(usual.colours.front() - turned.colours.back()), kFloatRounding);
   EXPECT_LT(usual.ink.r, 0.5F);
   EXPECT_GT(turned.ink.r, 0.5F);
 }

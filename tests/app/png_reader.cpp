@@ -9,21 +9,21 @@
 namespace geotherm::test {
 namespace {
 
-struct Source {
+struct PngBytes {
   const std::string& bytes;
   std::size_t at = 0;
   std::vector<png_bytep> rows;
 };
 
 void take_bytes(png_structp png, png_bytep into, png_size_t size) {
-  Source& source = *static_cast<Source*>(png_get_io_ptr(png));
+  PngBytes& source = *static_cast<PngBytes*>(png_get_io_ptr(png));
   if (source.bytes.size() - source.at < size) png_error(png, "the file ends early");
   std::memcpy(into, source.bytes.data() + source.at, size);
   source.at += size;
 }
 
 /// Left by longjmp where libpng fails: whatever has a destructor belongs to the caller.
-bool read_into(png_structp png, png_infop info, Source& source, PngContent& content) {
+bool read_into(png_structp png, png_infop info, PngBytes& source, PngContent& content) {
   if (setjmp(png_jmpbuf(png)) != 0) return false;
   png_set_read_fn(png, &source, take_bytes);
   png_read_info(png, info);
@@ -45,7 +45,7 @@ bool read_into(png_structp png, png_infop info, Source& source, PngContent& cont
 
 PngContent read_png(const std::string& bytes) {
   PngContent content;
-  Source source{bytes, 0, {}};
+  PngBytes source{bytes, 0, {}};
   png_structp png = png_create_read_struct(PNG_LIBPNG_VER_STRING, nullptr, nullptr, nullptr);
   png_infop info = png_create_info_struct(png);
   content.valid = read_into(png, info, source, content);

@@ -9,8 +9,6 @@
 namespace geotherm::test {
 namespace {
 
-using Json = nlohmann::json;
-
 /// Two unit squares of two triangles each, side by side; the vertices 4 and 7 of the second lie a
 /// thousandth beside 1 and 2 of the first.
 constexpr const char* kCracked =
@@ -24,10 +22,10 @@ class Reading : public testing::Test {
   ProgramRun run(const std::vector<std::string>& words, const std::string& input = {}) {
     return run_program(folder.path(""), words, Stdout::kCaptured, 0, input);
   }
-  Json json(const std::vector<std::string>& words, const std::string& input = {}) {
+  nlohmann::json json(const std::vector<std::string>& words, const std::string& input = {}) {
     const ProgramRun result = run(words, input);
     EXPECT_EQ(result.code, 0) << result.err;
-    return result.code == 0 ? Json::parse(result.out) : Json();
+    return result.code == 0 ? nlohmann::json::parse(result.out) : nlohmann::json();
   }
 
   TemporaryDirectory folder;
@@ -40,25 +38,26 @@ TEST_F(Reading, StandardInputIsAModelOfTheFormatThatIsNamed) {
   const ProgramRun piped = run(words("-"), folder.path("cracked.obj"));
   EXPECT_EQ(piped.code, 0) << piped.err;
   EXPECT_EQ(piped.out, run(words("cracked.obj")).out);
-  const Json info =
+  const nlohmann::json info =
       json({"info", "-", "--format", "obj", "--json", "-"}, folder.path("cracked.obj"));
   EXPECT_EQ(info["model"]["name"], "standard input");
 }
 
 TEST_F(Reading, WeldingClosesACrackAndKeepsTheNumbers) {
-  const Json cracks = json({"info", "cracked.obj", "--json", "-"});
+  const nlohmann::json cracks = json({"info", "cracked.obj", "--json", "-"});
   EXPECT_EQ(cracks["cracks"]["vertices"], 2);
   const std::string distance = cracks["cracks"]["weld"].dump();
   EXPECT_NE(cracks["warnings"].dump().find("--weld " + distance), std::string::npos);
 
   EXPECT_EQ(json({"solve", "cracked.obj", "-s", "0", "--json", "-"})["distance"]["unreached"], 4);
   for (const char* method : {"heat", "exact"}) {
-    const Json solved = json({"solve", "cracked.obj", "-s", "7", "--weld", distance, "--method",
-                              method, "--refine", "1", "--json", "-", "-o", "d.csv"});
+    const nlohmann::json solved =
+        json({"solve", "cracked.obj", "-s", "7", "--weld", distance, "--method", method, "--refine",
+              "1", "--json", "-", "-o", "d.csv"});
     EXPECT_EQ(solved["distance"]["unreached"], 0);
     EXPECT_EQ(solved["model"]["vertices"], 8);
     EXPECT_EQ(solved["options"]["refine"], 1);
-    EXPECT_EQ(solved["sources"], Json({2})) << "what stands for vertex 7";
+    EXPECT_EQ(solved["sources"], nlohmann::json({2})) << "what stands for vertex 7";
     const std::string csv = bytes_of(folder.path("d.csv"));
     EXPECT_NE(csv.find("\n2,0\n"), std::string::npos) << csv;
     EXPECT_NE(csv.find("\n7,0\n"), std::string::npos) << csv;

@@ -12,7 +12,6 @@
 namespace geotherm::test {
 namespace {
 
-using Json = nlohmann::json;
 using Names = std::vector<std::string>;
 
 class Render : public testing::Test {
@@ -206,16 +205,16 @@ TEST_F(Render, JsonHoldsTheSolveAndThePicture) {
   const Run result =
       run({"render", square, "-s", "0", "--size", "40x30", "-o", path("a.png"), "--json", "-"});
   expect_done(result);
-  const Json json = Json::parse(result.out);
+  const nlohmann::json json = nlohmann::json::parse(result.out);
   EXPECT_EQ(json["model"]["name"], "square");
   EXPECT_EQ(json["distance"]["unreached"], 3);
   EXPECT_TRUE(json["timing_ms"].contains("query"));
-  EXPECT_EQ(json["picture"]["files"], Json({path("a.png")}));
+  EXPECT_EQ(json["picture"]["files"], nlohmann::json({path("a.png")}));
   EXPECT_EQ(json["picture"]["width"], 40);
   EXPECT_EQ(json["picture"]["view"], "contours");
   EXPECT_EQ(json["picture"]["device"]["name"], "Fast GPU");
   EXPECT_EQ(json["picture"]["device"]["software"], false);
-  const Json plain = Json::parse(
+  const nlohmann::json plain = nlohmann::json::parse(
       run({"render", square, "--view", "flat", "-o", path("a.png"), "--json", "-"}).out);
   EXPECT_EQ(plain["model"]["faces"], 3);
   EXPECT_FALSE(plain.contains("distance"));
@@ -266,7 +265,7 @@ TEST_F(Render, DevicesListsThemWithTheDefaultMarkedAndReasonsAgainstTheOthers) {
                            "default", "cannot be used: dynamic rendering; 32-bit depth"}) {
     EXPECT_NE(result.out.find(part), std::string::npos) << part << " is not in\n" << result.out;
   }
-  const Json json = Json::parse(run({"devices", "--json", "-"}).out);
+  const nlohmann::json json = nlohmann::json::parse(run({"devices", "--json", "-"}).out);
   ASSERT_EQ(json["devices"].size(), 3U);
   EXPECT_EQ(json["devices"][0]["default"], true);
   EXPECT_EQ(json["devices"][1]["software"], true);

@@ -14,13 +14,13 @@ namespace {
 using namespace geotherm::engine;
 using Place = ArrowPlaces::Place;
 
-struct Shape {
+struct PlacedShape {
   std::string name;
   Model model;
 };
-void PrintTo(const Shape& shape, std::ostream* out) { *out << shape.name; }
+void PrintTo(const PlacedShape& shape, std::ostream* out) { *out << shape.name; }
 
-std::vector<Shape> shapes() {
+std::vector<PlacedShape> placed_shapes() {
   Model sheets = plane_model(30, 20);  // two sides of a thin sheet
   Model back = sheets;
   for (auto& p : back.positions) p.z = -0.001F;
@@ -34,7 +34,7 @@ std::vector<Shape> shapes() {
           {"Cube", cube_model(0.5F)}};
 }
 
-class ArrowPlacesOn : public testing::TestWithParam<Shape> {
+class ArrowPlacesOn : public testing::TestWithParam<PlacedShape> {
  protected:
   const Model& model() const { return GetParam().model; }
 };
@@ -101,7 +101,7 @@ TEST_P(ArrowPlacesOn, AreTheSameEveryTime) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(All, ArrowPlacesOn, testing::ValuesIn(shapes()),
+INSTANTIATE_TEST_SUITE_P(All, ArrowPlacesOn, testing::ValuesIn(placed_shapes()),
                          [](const auto& test) { return test.param.name; });
 
 TEST(ArrowPlaces, LeaveOutFacesWithoutArea) {

@@ -7,7 +7,7 @@ namespace {
 
 using namespace geotherm::engine;
 
-constexpr glm::vec3 kOrange(1, 0.5F, 0.25F);
+constexpr glm::vec3 kPaleOrange(1, 0.5F, 0.25F);
 
 class Background : public GpuTest {
  protected:
@@ -19,7 +19,7 @@ class Background : public GpuTest {
     Orbit orbit = kFromFront;
     orbit.zoom = 0.8F;
     stage.look(orbit);
-    stage.scene.surface.colour = kOrange;
+    stage.scene.surface.colour = kPaleOrange;
     return stage;
   }
 };
@@ -57,7 +57,7 @@ TEST_F(Background, DoesNotDarkenTheBorderOfTheModel) {
       if (alpha == 0 || alpha == 255) continue;
       ++border;
       // 8 bits of a quarter of the coverage at least.
-      EXPECT_LE(difference(colour_at(image, x, y), kOrange), 2.5F / 255) << x << " " << y;
+      EXPECT_LE(difference(colour_at(image, x, y), kPaleOrange), 2.5F / 255) << x << " " << y;
     }
   }
   EXPECT_GE(border, 200);

@@ -9,7 +9,7 @@ namespace {
 using namespace geotherm::engine;
 
 /// The picture's 8 bits and the map's steps both round.
-constexpr float kRounding = 2.5F / 255;
+constexpr float kColourRounding = 2.5F / 255;
 constexpr glm::vec3 kGrey(0.62F);  ///< of what has no value
 
 class FaceValues : public GpuTest {
@@ -27,7 +27,7 @@ class FaceValues : public GpuTest {
       const auto at = [&](std::size_t i) { return stage.model.positions[corners[(k + i) % 3]]; };
       const glm::vec3 place = 0.8F * at(0) + 0.1F * at(1) + 0.1F * at(2);
       const glm::vec3 seen = colour_at(image, stage.scene.camera.project(place));
-      EXPECT_LE(difference(seen, expected), kRounding) << face << " " << k;
+      EXPECT_LE(difference(seen, expected), kColourRounding) << face << " " << k;
     }
   }
   glm::vec3 colour_of(float value) const { return engine::colour_at(map, value / 4); }

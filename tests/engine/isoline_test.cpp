@@ -10,7 +10,7 @@ namespace {
 
 using namespace geotherm::engine;
 
-constexpr double kPi = std::numbers::pi;
+constexpr double kHalfTurn = std::numbers::pi;
 
 class Isolines : public GpuTest {
  protected:
@@ -65,14 +65,14 @@ TEST_F(Isolines, AreCirclesOfLatitudeForTheAngleFromThePole) {
   Stage stage(device(), model_of(sphere(4)));
   constexpr int kLines = 8;
   stage.draw_lines(stage.model.values([](const glm::vec3& p) { return std::acos(p.y); }),
-                   static_cast<float>(kPi / kLines));
+                   static_cast<float>(kHalfTurn / kLines));
   const Image image = stage.draw();
   const int x = image.width / 2;
   const glm::ivec2 top(x, static_cast<int>(stage.scene.camera.project({0, 1, 0}).y) + 3);
   const auto runs = dark_runs(image, top, {0, 1}, image.height - 2 * top.y);
   ASSERT_EQ(runs.size(), kLines - 1);
   for (int i = 1; i < kLines; ++i) {
-    const glm::vec3 on_line(0, std::cos(kPi * i / kLines), std::sin(kPi * i / kLines));
+    const glm::vec3 on_line(0, std::cos(kHalfTurn * i / kLines), std::sin(kHalfTurn * i / kLines));
     EXPECT_NEAR(top.y + 0.5 + runs[static_cast<std::size_t>(i - 1)].centre,
                 stage.scene.camera.project(on_line).y, 1);
   }

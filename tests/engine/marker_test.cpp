@@ -13,7 +13,7 @@ using namespace geotherm::engine;
 constexpr glm::vec3 kInside(1, 0.5F, 0);
 constexpr glm::vec3 kRim(0, 0, 1);
 constexpr float kRadius = 9;
-constexpr float kRounding = 1.5F / 255;
+constexpr float kPixelRounding = 1.5F / 255;
 
 class Markers : public GpuTest {
  protected:
@@ -29,7 +29,7 @@ class Markers : public GpuTest {
   static Marker point(const glm::vec3& p) { return {p, p}; }
 
   static void expect_colour(const Image& image, const glm::vec3& at, const glm::vec3& expected) {
-    EXPECT_LE(difference(colour_at(image, at), expected), kRounding) << at.x << " " << at.y;
+    EXPECT_LE(difference(colour_at(image, at), expected), kPixelRounding) << at.x << " " << at.y;
   }
   /// Pixels that the markers cover, by coverage.
   static double covered(const Image& image) {

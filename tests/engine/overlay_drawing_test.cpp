@@ -8,7 +8,7 @@ namespace {
 
 using namespace geotherm::engine;
 
-const glm::vec4 kBlue(0.2F, 0.4F, 0.8F, 1);
+const glm::vec4 kInkBlue(0.2F, 0.4F, 0.8F, 1);
 
 class OverlayDrawing : public GpuTest {};
 
@@ -17,12 +17,12 @@ TEST_F(OverlayDrawing, FillsExactlyItsRectangle) {
     Stage stage(device(), plane_model(1, 1), samples);
     stage.scene.surface.colour = glm::vec3(1);
     Overlay overlay;
-    overlay.add_rectangle({40, 30}, {100, 50}, kBlue);
+    overlay.add_rectangle({40, 30}, {100, 50}, kInkBlue);
     const Image image = stage.draw(overlay);
     for (int y = 0; y < image.height; ++y) {
       for (int x = 0; x < image.width; ++x) {
         const bool inside = x >= 40 && x < 100 && y >= 30 && y < 50;
-        ASSERT_LE(difference(colour_at(image, x, y), inside ? glm::vec3(kBlue) : glm::vec3(1)),
+        ASSERT_LE(difference(colour_at(image, x, y), inside ? glm::vec3(kInkBlue) : glm::vec3(1)),
                   1.0F / 255)
             << x << " " << y;
       }
@@ -85,13 +85,13 @@ TEST_F(OverlayDrawing, IsOpaqueOverATransparentBackground) {
   stage.look({.azimuth = 0, .elevation = 0, .zoom = 0.3F});
   stage.scene.background = {1, 1, 1, 0};
   Overlay overlay;
-  overlay.add_rectangle({0, 0}, {20, 20}, kBlue);
+  overlay.add_rectangle({0, 0}, {20, 20}, kInkBlue);
   overlay.add_rectangle({0, 40}, {20, 60}, {0.2F, 0.4F, 0.8F, 0.5F});
   const Image image = stage.draw(overlay);
   EXPECT_EQ(image.at(10, 10)[3], 255);
-  EXPECT_LE(difference(colour_at(image, 10, 10), kBlue), 1.0F / 255);
+  EXPECT_LE(difference(colour_at(image, 10, 10), kInkBlue), 1.0F / 255);
   EXPECT_NEAR(image.at(10, 50)[3], 127.5, 1);
-  EXPECT_LE(difference(colour_at(image, 10, 50), kBlue), 2.5F / 255);  // not multiplied in
+  EXPECT_LE(difference(colour_at(image, 10, 50), kInkBlue), 2.5F / 255);  // not multiplied in
   EXPECT_EQ(image.at(10, 30)[3], 0);
 }
 

@@ -10,10 +10,10 @@ using namespace geotherm::engine;
 
 /// Share of pixels that may differ by more than 1/255. Positions are rounded to other floats; from
 /// odd corners lines are measured over other pairs of pixels as well.
-constexpr double kRounding = 0.005;
+constexpr double kPlaceRounding = 0.005;
 constexpr double kOtherPairs = 0.03;
 double tolerance(glm::ivec2 corner) {
-  return (corner.x | corner.y) % 2 == 0 ? kRounding : kOtherPairs;
+  return (corner.x | corner.y) % 2 == 0 ? kPlaceRounding : kOtherPairs;
 }
 
 Image part_of(const Image& image, glm::ivec2 from, glm::ivec2 size) {
@@ -81,7 +81,7 @@ TEST_F(PictureCut, ByItsTargetShowsThePartThatIsThere) {
   const Image cut = stage.draw_into({200, 100}, {60, 40}, some_text());
   const glm::ivec2 size(140, 60);
   EXPECT_LE(different_pixels(part_of(cut, {60, 40}, size), part_of(alone, {0, 0}, size), 1),
-            kRounding);
+            kPlaceRounding);
 }
 
 TEST_F(PictureCut, OutsideOfItsTargetShowsTheBackground) {

@@ -12,7 +12,7 @@ namespace geotherm::test {
 namespace {
 
 // A few roundings, enlarged by the shape of the triangles (angles of 5 degrees and more).
-constexpr double kRoundOff = 1e-12;
+constexpr double kGradientRoundOff = 1e-12;
 // A needle of height 1e-6 has lost as many digits.
 constexpr double kNeedleRoundOff = 1e-9;
 
@@ -27,7 +27,7 @@ TEST(FaceGradient, OfALinearFunctionInThePlaneIsExact) {
   const MeshPtr mesh = finish(jittered_plane(12, 0.3, 7));
   const Vec3 expected(0.7, -1.3, 0);
   for (const Vec3& gradient : face_gradients(*mesh, linear_values(*mesh, expected))) {
-    ASSERT_LE((gradient - expected).norm(), kRoundOff);
+    ASSERT_LE((gradient - expected).norm(), kGradientRoundOff);
   }
 }
 
@@ -39,7 +39,7 @@ TEST(FaceGradient, OfALinearFunctionInSpaceIsItsPartInEachFace) {
     const auto& [a, b, c] = mesh->faces()[f];
     const auto p = mesh->positions();
     const Vec3 normal = (p[b] - p[a]).cross(p[c] - p[a]).normalized();
-    ASSERT_LE((gradients[f] - (whole - whole.dot(normal) * normal)).norm(), kRoundOff);
+    ASSERT_LE((gradients[f] - (whole - whole.dot(normal) * normal)).norm(), kGradientRoundOff);
   }
 }
 
@@ -49,10 +49,10 @@ TEST_P(FaceGradientScale, ChangesNoDigitThatMatters) {
   const double scale = GetParam();
   const std::array<Vec3, 3> corners = {Vec3(0, 0, 0), Vec3(scale, 0, 0), Vec3(0, 2 * scale, 0)};
   const Vec3 of_lengths = triangle_gradient(corners, {0, scale, 0});
-  EXPECT_LE((of_lengths - Vec3(1, 0, 0)).norm(), kRoundOff);
+  EXPECT_LE((of_lengths - Vec3(1, 0, 0)).norm(), kGradientRoundOff);
   const Vec3 of_values =
       triangle_gradient({Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 2, 0)}, {0, scale, -scale});
-  EXPECT_LE((of_values / scale - Vec3(1, -0.5, 0)).norm(), kRoundOff);
+  EXPECT_LE((of_values / scale - Vec3(1, -0.5, 0)).norm(), kGradientRoundOff);
 }
 
 INSTANTIATE_TEST_SUITE_P(Of, FaceGradientScale, testing::Values(1e-300, 1e-150, 1.0, 1e150, 1e300),

@@ -25,14 +25,14 @@ Draft stretched_delaunay() {
   return draft;
 }
 
-struct Case {
+struct RefinedCase {
   const char* name;
   Draft (*draft)();
   bool planar = false, border = false;
 };
-void PrintTo(const Case& c, std::ostream* out) { *out << c.name; }
+void PrintTo(const RefinedCase& c, std::ostream* out) { *out << c.name; }
 
-const Case kCases[] = {
+const RefinedCase kCases[] = {
     {"delaunay", [] { return random_delaunay(400, 1); }, true, true},
     {"stretched", stretched_delaunay, true, true},
     {"graded", [] { return graded_plane(20, 200); }, true, true},
@@ -52,7 +52,7 @@ double area(const std::vector<std::array<double, 3>>& lengths) {
   return sum;
 }
 
-class Refinements : public testing::TestWithParam<Case> {
+class Refinements : public testing::TestWithParam<RefinedCase> {
  protected:
   MeshPtr mesh = finish(GetParam().draft());
   IntrinsicSurface flipped =
@@ -182,11 +182,11 @@ TEST_P(RefinementsOfThePlane, CarrySegmentsToTheirPlaceInAll) {
   }
 }
 
-std::string case_name(const testing::TestParamInfo<Case>& info) { return info.param.name; }
+std::string case_name(const testing::TestParamInfo<RefinedCase>& info) { return info.param.name; }
 
-std::vector<Case> planar_cases() {
-  std::vector<Case> out;
-  for (const Case& c : kCases) {
+std::vector<RefinedCase> planar_cases() {
+  std::vector<RefinedCase> out;
+  for (const RefinedCase& c : kCases) {
     if (c.planar) out.push_back(c);
   }
   return out;

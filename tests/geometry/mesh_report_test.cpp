@@ -14,7 +14,7 @@ namespace geotherm::test {
 namespace {
 
 /// Sums of some thousand terms.
-constexpr double kRoundOff = 1e-12;
+constexpr double kReportRoundOff = 1e-12;
 
 MeshReport report_of(Draft draft) { return inspect_mesh(*finish(std::move(draft))); }
 
@@ -62,11 +62,11 @@ TEST(MeshReport, MeasuresAGrid) {
   EXPECT_EQ(report.boundary_edges, 14);
   EXPECT_EQ(report.boundary_loops, 1);
   EXPECT_EQ(report.euler_characteristic, 1);
-  EXPECT_NEAR(report.area, 12, 12 * kRoundOff);
-  EXPECT_NEAR(report.smallest_angle, 45, 45 * kRoundOff);
-  EXPECT_NEAR(report.shortest_edge, 1, kRoundOff);
-  EXPECT_NEAR(report.longest_edge, std::numbers::sqrt2, kRoundOff);
-  EXPECT_NEAR(report.mean_quality, 4 * std::numbers::sqrt3 * 0.5 / 4, kRoundOff);
+  EXPECT_NEAR(report.area, 12, 12 * kReportRoundOff);
+  EXPECT_NEAR(report.smallest_angle, 45, 45 * kReportRoundOff);
+  EXPECT_NEAR(report.shortest_edge, 1, kReportRoundOff);
+  EXPECT_NEAR(report.longest_edge, std::numbers::sqrt2, kReportRoundOff);
+  EXPECT_NEAR(report.mean_quality, 4 * std::numbers::sqrt3 * 0.5 / 4, kReportRoundOff);
   EXPECT_EQ(report.box_min, Vec3(0, 0, 0));
   EXPECT_EQ(report.box_max, Vec3(3, 4, 0));
 }
@@ -118,8 +118,8 @@ TEST(MeshReport, IsTheSameAtEveryScale) {
   for (const double scale : {1e-100, 1e-9, 1e9, 1e100}) {
     const MeshReport other = report_of(transformed(torus(16, 8, 0.4), scale, Vec3::Zero(), false));
     EXPECT_EQ(other.degenerate_faces, 0) << scale;
-    EXPECT_NEAR(other.mean_edge_length / scale, one.mean_edge_length, kRoundOff) << scale;
-    EXPECT_NEAR(other.area / scale / scale, one.area, kRoundOff * one.area) << scale;
+    EXPECT_NEAR(other.mean_edge_length / scale, one.mean_edge_length, kReportRoundOff) << scale;
+    EXPECT_NEAR(other.area / scale / scale, one.area, kReportRoundOff * one.area) << scale;
     EXPECT_NEAR(other.smallest_angle, one.smallest_angle, 1e-9) << scale;
   }
 }

@@ -16,7 +16,7 @@ constexpr double kDiffers = 1e-3;
 constexpr double kAtMost = 0.15;
 // What a rule may do to distances that no border is near.
 constexpr double kInside = 0.03;
-constexpr double kRoundOff = 1e-9;
+constexpr double kBoundaryRoundOff = 1e-9;
 
 HeatOptions under(BoundaryRule rule, const std::string& backend = {}) {
   HeatOptions options;
@@ -145,7 +145,7 @@ TEST_P(BoundaryRules, AreOneOnAClosedSurface) {
   const auto neumann = solve(closed, {7}, under(BoundaryRule::kNeumann, GetParam())).distances;
   for (const auto rule : {BoundaryRule::kDirichlet, BoundaryRule::kAverage}) {
     EXPECT_LE(relative_difference(solve(closed, {7}, under(rule, GetParam())).distances, neumann),
-              kRoundOff);
+              kBoundaryRoundOff);
   }
 }
 

@@ -13,8 +13,8 @@ namespace {
 
 // The tolerance is a share of the largest distance. An iterative backend solves different systems
 // to 1e-13 in the residual.
-constexpr double kDirect = 1e-9;
-constexpr double kIterative = 1e-6;
+constexpr double kDirectModes = 1e-9;
+constexpr double kIterativeModes = 1e-6;
 // A row replaced by a number leaves that row's residual, one of n terms of like size.
 constexpr double kPenaltyShows = 1e-4;
 constexpr double kNoResidual = 1e-8;
@@ -26,14 +26,14 @@ HeatOptions in_mode(ConstraintMode mode, Index pin = kNoIndex) {
   return options;
 }
 
-using Case = std::tuple<std::string, ZooMesh>;
+using ModeCase = std::tuple<std::string, ZooMesh>;
 
-class ConstraintModes : public testing::TestWithParam<Case> {
+class ConstraintModes : public testing::TestWithParam<ModeCase> {
  protected:
   MeshPtr mesh = std::get<1>(GetParam()).mesh();
   std::string backend = std::get<0>(GetParam());
   bool iterative = !std::ranges::count(direct_backends(), backend);
-  double tolerance = iterative ? kIterative : kDirect;
+  double tolerance = iterative ? kIterativeModes : kDirectModes;
   std::vector<Index> sources = {3, mesh->vertex_count() / 2, mesh->vertex_count() - 4};
 
   DistanceResult in(const HeatOptions& options) const {
@@ -73,11 +73,11 @@ TEST_P(ConstraintModes, PenaltyShowsInTheResidual) {
   EXPECT_GE(penalised, kPenaltyShows);
 }
 
-std::vector<ZooMesh> meshes() { return zoo(kSmooth); }
+std::vector<ZooMesh> mode_meshes() { return zoo(kSmooth); }
 
 INSTANTIATE_TEST_SUITE_P(Backends, ConstraintModes,
                          testing::Combine(testing::ValuesIn(backend_names()),
-                                          testing::ValuesIn(meshes())),
+                                          testing::ValuesIn(mode_meshes())),
                          [](const auto& each) {
                            return test_name(std::get<0>(each.param)) + "_" +
                                   std::get<1>(each.param).name;
@@ -97,7 +97,7 @@ TEST_P(PinnedSources, AreTheSameThroughADenseSystemAndThroughHeldRows) {
     for (const Index s : sources) EXPECT_EQ(d[s], 0);
     for (const std::string& iterative : iterative_backends()) {
       EXPECT_LE(relative_difference(solve(mesh, sources, with_backend(iterative)).distances, d),
-                kIterative)
+                kIterativeModes)
           << direct << " and " << iterative;
     }
   }

@@ -71,7 +71,7 @@ TEST_P(CurveSources, DoNotDependOnDirectionOrOrder) {
   EXPECT_EQ(solve(method, turned).distances, solve(method, middle_curve()).distances);
 }
 
-std::string case_name(const testing::TestParamInfo<CurveCase>& each) {
+std::string curve_case_name(const testing::TestParamInfo<CurveCase>& each) {
   const char* const modes[] = {"unit", "diffuse", "hold"};
   return test_name(std::get<0>(each.param)) + "_" +
          modes[static_cast<int>(std::get<1>(each.param))];
@@ -80,7 +80,7 @@ INSTANTIATE_TEST_SUITE_P(Backends, CurveSources,
                          testing::Combine(testing::ValuesIn(backend_names()),
                                           testing::Values(HeatMode::kUnit, HeatMode::kDiffuse,
                                                           HeatMode::kHold)),
-                         case_name);
+                         curve_case_name);
 
 TEST(CurveSource, IsBetterThanItsVerticesAlone) {
   // The rows beside the curve stand half a long edge aside: their nearest point is no vertex.

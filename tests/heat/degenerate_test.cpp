@@ -34,9 +34,9 @@ std::vector<char> reach_of(const TriangleMesh& mesh, Index source) {
   return reached;
 }
 
-using Case = std::tuple<std::string, ZooMesh>;
+using DegenerateCase = std::tuple<std::string, ZooMesh>;
 
-class EveryMesh : public testing::TestWithParam<Case> {
+class EveryMesh : public testing::TestWithParam<DegenerateCase> {
  protected:
   MeshPtr mesh = std::get<1>(GetParam()).mesh();
   Index source = mesh->faces()[mesh->face_count() / 2][0];

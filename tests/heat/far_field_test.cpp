@@ -13,8 +13,8 @@ namespace {
 
 // Far from the source fronts are straight lines across the strip: an edge's length each edge.
 constexpr double kSlope = 1e-6;
-constexpr double kIterative = 1e-6;
-constexpr double kDirect = 1e-9;
+constexpr double kFarIterative = 1e-6;
+constexpr double kFarDirect = 1e-9;
 
 constexpr Index kLength = 5000;
 
@@ -83,12 +83,12 @@ TEST_P(FarField, KeepsDirectionsThroughSeveralColumns) {
   ASSERT_TRUE(together) << together.error().message;
   for (std::size_t c = 0; c < 3; ++c) {
     EXPECT_LE(relative_difference((*together)[c].distances, solve(method, sets[c]).distances),
-              kDirect);
+              kFarDirect);
   }
   // The strip is its own image under a half turn.
   const auto& left = (*together)[0].distances;
   std::vector<double> turned((*together)[2].distances.rbegin(), (*together)[2].distances.rend());
-  EXPECT_LE(relative_difference(turned, left), kDirect);
+  EXPECT_LE(relative_difference(turned, left), kFarDirect);
 }
 
 TEST_P(FarField, OfABlockIsThatOfEachColumn) {
@@ -110,7 +110,7 @@ TEST_P(FarField, OfABlockIsThatOfEachColumn) {
   for (std::size_t c = 0; c < sets.size(); ++c) {
     const DistanceResult alone = solve(method, sets[c]);
     EXPECT_EQ(alone.quality.zero_gradient_faces, 0) << c;
-    EXPECT_LE(relative_difference((*together)[c].distances, alone.distances), kDirect) << c;
+    EXPECT_LE(relative_difference((*together)[c].distances, alone.distances), kFarDirect) << c;
   }
 }
 
@@ -125,7 +125,7 @@ class IterativeFarField : public testing::TestWithParam<std::string> {
     EXPECT_LE(relative_difference(
                   solve(mesh, sources, with_backend(GetParam(), options)).distances,
                   solve(mesh, sources, with_backend(direct_backends().front(), options)).distances),
-              kIterative);
+              kFarIterative);
   }
   MeshPtr strip = finish(plane_grid(700, 4, 700, 4));
 };

@@ -21,7 +21,7 @@ namespace geotherm::test {
 namespace {
 
 // Roots by iteration to some units of the last digit, sums of a few terms in another order.
-constexpr double kRoundOff = 1e-12;
+constexpr double kKernelRoundOff = 1e-12;
 constexpr double kRootT = 1.2;
 
 using KernelCase = std::tuple<int, InstructionSet, bool>;
@@ -106,7 +106,7 @@ TEST_P(FieldKernels, ComputeTheDivergenceOfTheField) {
       }
     }
   }
-  EXPECT_LE(relative_difference(run(first, nullptr), expected), kRoundOff);
+  EXPECT_LE(relative_difference(run(first, nullptr), expected), kKernelRoundOff);
 }
 
 TEST_P(FieldKernels, SendFacesWithoutADirectionTheCarefulWay) {

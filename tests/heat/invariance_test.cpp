@@ -78,7 +78,7 @@ TEST_P(Invariance, UnderScalingToWhereAreasLeaveTheRangeOfDoubles) {
   }
 }
 
-std::vector<ZooMesh> meshes() {
+std::vector<ZooMesh> turned_meshes() {
   std::vector<ZooMesh> out = zoo(kSmooth);
   for (const ZooMesh& mesh : zoo(kRegular)) {
     const std::string name = mesh.name;
@@ -86,7 +86,7 @@ std::vector<ZooMesh> meshes() {
   }
   return out;
 }
-INSTANTIATE_TEST_SUITE_P(Zoo, Invariance, testing::ValuesIn(meshes()), zoo_name);
+INSTANTIATE_TEST_SUITE_P(Zoo, Invariance, testing::ValuesIn(turned_meshes()), zoo_name);
 
 }  // namespace
 }  // namespace geotherm::test

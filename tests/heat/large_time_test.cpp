@@ -20,7 +20,7 @@ constexpr double kWorse = 1.1;
 // distance.
 constexpr double kExtreme = 0.15;
 
-struct Errors {
+struct ErrorsOfTime {
   double mean, largest;
 };
 
@@ -31,12 +31,12 @@ class LargeTimes : public testing::TestWithParam<std::tuple<int, double>> {
       std::get<0>(GetParam()) == 1 ? std::vector<Index>{7} : std::vector<Index>{7, 400, 1500, 9300};
 
   /// Against the exact distances on the sphere, which chords undercut by less than a per mille.
-  Errors errors(Variant variant) const {
+  ErrorsOfTime errors(Variant variant) const {
     HeatOptions options;
     options.time_step.factor = std::get<1>(GetParam());
     options.variant = variant;
     const auto d = solve(finish(draft), sources, options).distances;
-    Errors out{0, 0};
+    ErrorsOfTime out{0, 0};
     for (std::size_t v = 0; v < d.size(); ++v) {
       double exact = kUnreached;
       for (const Index s : sources) {
@@ -53,8 +53,8 @@ class LargeTimes : public testing::TestWithParam<std::tuple<int, double>> {
 };
 
 TEST_P(LargeTimes, AreNoWorseThanAsPublished) {
-  const Errors corrected = errors(Variant::kCorrected);
-  const Errors classic = errors(Variant::kClassic);
+  const ErrorsOfTime corrected = errors(Variant::kCorrected);
+  const ErrorsOfTime classic = errors(Variant::kClassic);
   EXPECT_LE(corrected.mean, kWorse * classic.mean);
   EXPECT_LE(corrected.largest, kWorse * classic.largest);
 }

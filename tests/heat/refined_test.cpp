@@ -23,7 +23,7 @@ namespace {
 constexpr double kOfRange = 0.065;
 // What inserted vertices leave of the largest errors on the same triangulation without them, at
 // most.
-constexpr double kLeft = 0.5;
+constexpr double kErrorLeft = 0.5;
 // Waves in the plane are exact but for what an edge's visits leave unnoticed: 1e-4 of a side each.
 constexpr double kNearExact = 1e-3;
 // The same numbers by two ways but for the round-off of compact factors.
@@ -76,7 +76,7 @@ TEST_P(RefinedPlane, IsRightFromVertices) {
     sum += e.max_of_range;
     sum_without += error(without, source, distance).max_of_range;
   }
-  EXPECT_LE(sum, kLeft * sum_without);
+  EXPECT_LE(sum, kErrorLeft * sum_without);
 }
 
 TEST_P(RefinedPlane, IsRightFromPointsInFaces) {

@@ -13,7 +13,7 @@ namespace {
 // Two ways to name one point differ in rounding only.
 constexpr double kSamePoint = 1e-12;
 // Errors of the discretisation, in mean edges.
-constexpr double kEdges = 1.0;
+constexpr double kPointEdges = 1.0;
 
 Vec3 place(const TriangleMesh& mesh, const SurfacePoint& point) {
   Vec3 p = Vec3::Zero();
@@ -96,13 +96,13 @@ class PointsInThePlane : public testing::TestWithParam<PlaneCase> {
 };
 
 TEST_P(PointsInThePlane, InsideAFaceAreWhereTheyAre) {
-  EXPECT_LE(error(SurfacePoint::in_face(middle_face(), {0.2, 0.3, 0.5})), kEdges);
-  EXPECT_LE(error(SurfacePoint::in_face(middle_face(), {0.7, 0.2, 0.1})), kEdges);
+  EXPECT_LE(error(SurfacePoint::in_face(middle_face(), {0.2, 0.3, 0.5})), kPointEdges);
+  EXPECT_LE(error(SurfacePoint::in_face(middle_face(), {0.7, 0.2, 0.1})), kPointEdges);
 }
 
 TEST_P(PointsInThePlane, OnAnEdgeAreWhereTheyAre) {
-  EXPECT_LE(error(SurfacePoint::in_face(middle_face(), {0.4, 0.6, 0})), kEdges);
-  EXPECT_LE(error(SurfacePoint::in_face(middle_face(), {0, 0.5, 0.5})), kEdges);
+  EXPECT_LE(error(SurfacePoint::in_face(middle_face(), {0.4, 0.6, 0})), kPointEdges);
+  EXPECT_LE(error(SurfacePoint::in_face(middle_face(), {0, 0.5, 0.5})), kPointEdges);
 }
 
 TEST_P(PointsInThePlane, OnAnEdgeAreTheSameFromBothFaces) {

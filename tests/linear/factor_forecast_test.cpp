@@ -27,9 +27,9 @@ const Shape kShapes[] = {
     {"large", [] { return torus(200, 110, 0.4); }},  // where narrow factors are narrow
 };
 
-using Case = std::tuple<std::string, Shape>;
+using ForecastCase = std::tuple<std::string, Shape>;
 
-class FactorForecast : public testing::TestWithParam<Case> {};
+class FactorForecast : public testing::TestWithParam<ForecastCase> {};
 
 TEST_P(FactorForecast, IsWhatTheFactorTakes) {
   const Backend& backend = backend_named(std::get<0>(GetParam()));

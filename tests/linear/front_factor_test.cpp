@@ -18,11 +18,11 @@ constexpr FactorStorage kStorages[] = {FactorStorage::kFull, FactorStorage::kSin
                                        FactorStorage::kWideExponent};
 
 // The heat step's matrix has a condition number of about 10.
-constexpr double kRoundOff = 1e-13;
+constexpr double kFrontRoundOff = 1e-13;
 
 /// What rounding each number of the factor to 53, 24 or 21 bits does to an answer, 4 times over.
 double tolerance(FactorStorage storage) {
-  constexpr double kBits[] = {kRoundOff, 4 * 0x1p-24, 4 * 0x1p-21};
+  constexpr double kBits[] = {kFrontRoundOff, 4 * 0x1p-24, 4 * 0x1p-21};
   return kBits[static_cast<int>(storage)];
 }
 
@@ -63,7 +63,8 @@ TEST(FrontFactor, EveryInstructionSetGivesTheSameAnswer) {
         fronts.solve(fronts.factor(FactorStorage::kFull, 1, kSets[0]), b, group, 1, kSets[0]);
     for (const InstructionSet set : kSets) {
       const FrontFactor factor = fronts.factor(FactorStorage::kFull, 1, set);
-      EXPECT_LE(relative_difference(fronts.solve(factor, b, group, 1, set), expected), kRoundOff)
+      EXPECT_LE(relative_difference(fronts.solve(factor, b, group, 1, set), expected),
+                kFrontRoundOff)
           << group << " right sides, set " << static_cast<int>(set);
     }
   }
@@ -78,7 +79,7 @@ TEST(FrontFactor, NarrowAnswersDifferBetweenInstructionSetsByLittle) {
     for (const InstructionSet set : kSets) {
       // The same factor in another order of sums; then a factor that was computed in another order,
       // of which a few numbers in a million round to their other neighbour.
-      EXPECT_LE(relative_difference(fronts.solve(plain, b, 1, 1, set), expected), kRoundOff);
+      EXPECT_LE(relative_difference(fronts.solve(plain, b, 1, 1, set), expected), kFrontRoundOff);
       const FrontFactor own = fronts.factor(storage, 1, set);
       EXPECT_LE(relative_difference(fronts.solve(own, b, 1, 1, set), expected), 1e-9);
     }

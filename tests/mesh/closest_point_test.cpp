@@ -20,12 +20,12 @@ TriangleMesh one_triangle() {
   return *TriangleMesh::build({Vec3(0, 0, 0), Vec3(4, 0, 0), Vec3(0, 4, 0)}, {{0, 1, 2}});
 }
 
-struct Case {
+struct PlaceCase {
   const char* name;
   Vec3 query, closest;
 };
 
-class ClosestPoints : public testing::TestWithParam<Case> {};
+class ClosestPoints : public testing::TestWithParam<PlaceCase> {};
 
 TEST_P(ClosestPoints, AreFoundInFacesOnSidesAndAtCorners) {
   const TriangleMesh mesh = one_triangle();
@@ -36,15 +36,15 @@ TEST_P(ClosestPoints, AreFoundInFacesOnSidesAndAtCorners) {
 }
 
 INSTANTIATE_TEST_SUITE_P(OfATriangle, ClosestPoints,
-                         testing::Values(Case{"Above", {1, 1, 3}, {1, 1, 0}},
-                                         Case{"Below", {1, 1, -3}, {1, 1, 0}},
-                                         Case{"On", {1, 2, 0}, {1, 2, 0}},
-                                         Case{"BesideTheFirst", {1, -2, 1}, {1, 0, 0}},
-                                         Case{"BesideTheSecond", {4, 4, 0}, {2, 2, 0}},
-                                         Case{"BesideTheThird", {-5, 3, 2}, {0, 3, 0}},
-                                         Case{"AtTheFirst", {-1, -1, 0}, {0, 0, 0}},
-                                         Case{"AtTheSecond", {9, -1, 2}, {4, 0, 0}},
-                                         Case{"AtTheThird", {-1, 7, 0}, {0, 4, 0}}),
+                         testing::Values(PlaceCase{"Above", {1, 1, 3}, {1, 1, 0}},
+                                         PlaceCase{"Below", {1, 1, -3}, {1, 1, 0}},
+                                         PlaceCase{"On", {1, 2, 0}, {1, 2, 0}},
+                                         PlaceCase{"BesideTheFirst", {1, -2, 1}, {1, 0, 0}},
+                                         PlaceCase{"BesideTheSecond", {4, 4, 0}, {2, 2, 0}},
+                                         PlaceCase{"BesideTheThird", {-5, 3, 2}, {0, 3, 0}},
+                                         PlaceCase{"AtTheFirst", {-1, -1, 0}, {0, 0, 0}},
+                                         PlaceCase{"AtTheSecond", {9, -1, 2}, {4, 0, 0}},
+                                         PlaceCase{"AtTheThird", {-1, 7, 0}, {0, 4, 0}}),
                          [](const auto& test) { return std::string(test.param.name); });
 
 TEST(ClosestPoint, IsAVertexWhereTheQueryIsOne) {

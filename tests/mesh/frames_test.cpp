@@ -52,7 +52,7 @@ std::string from_hex(std::string_view digits) {
 }
 
 template <class Number>
-void append(std::string& bytes, Number number, std::endian order) {
+void append_number(std::string& bytes, Number number, std::endian order) {
   std::array<char, sizeof(Number)> raw{};
   std::memcpy(raw.data(), &number, sizeof(Number));
   if (order != std::endian::native) std::ranges::reverse(raw);
@@ -64,7 +64,8 @@ std::string numbers(std::endian order) {
   std::string bytes;
   for (const Positions& frame : kFrames) {
     for (const Vec3& p : frame) {
-      for (int axis = 0; axis < 3; ++axis) append(bytes, static_cast<Number>(p[axis]), order);
+      for (int axis = 0; axis < 3; ++axis)
+        append_number(bytes, static_cast<Number>(p[axis]), order);
     }
   }
   return bytes;
@@ -76,7 +77,7 @@ std::string npy(const std::string& type, const std::string& shape, const std::st
                              "', 'fortran_order': " + (fortran ? "True" : "False") +
                              ", 'shape': " + shape + ", }\n";
   std::string bytes("\x93NUMPY\x01\x00", 8);
-  append(bytes, static_cast<std::uint16_t>(header.size()), std::endian::little);
+  append_number(bytes, static_cast<std::uint16_t>(header.size()), std::endian::little);
   return bytes + header + data;
 }
 
@@ -233,7 +234,7 @@ INSTANTIATE_TEST_SUITE_P(
 TEST(FrameFileWithNaN, NamesFrameAndVertexAndTheOthersAreRead) {
   std::string data = numbers<double>(kLittle);
   std::string bad;
-  append(bad, std::nan(""), kLittle);
+  append_number(bad, std::nan(""), kLittle);
   data.replace(10 * sizeof(double), sizeof(double), bad);  // frame 1, vertex 0
   const TemporaryDirectory folder;
   const std::string path = folder.write("walk.npy", npy("<f8", "(2, 3, 3)", data));

@@ -16,12 +16,12 @@
 namespace geotherm::test {
 namespace {
 
-constexpr unsigned kSeed = 20130;
+constexpr unsigned kRaySeed = 20130;
 constexpr double kFar = std::numeric_limits<double>::infinity();
 
 /// Of a distance and of a position, relative to the model and the way to it: both searches round,
 /// and faces that are seen from their edge magnify that.
-constexpr double kRoundOff = 1e-10;
+constexpr double kRayRoundOff = 1e-10;
 
 RayTree tree_of(const MeshPtr& mesh) {
   auto tree = RayTree::build(mesh);
@@ -57,7 +57,7 @@ double first_of_all_faces(const TriangleMesh& mesh, const Vec3& origin, const Ve
 /// Random points and rays around a mesh.
 class Rays {
  public:
-  explicit Rays(const TriangleMesh& mesh) : random_(kSeed) {
+  explicit Rays(const TriangleMesh& mesh) : random_(kRaySeed) {
     for (const Vec3& p : mesh.positions()) box_.extend(p);
   }
 
@@ -91,7 +91,7 @@ void expect_same_as_all_faces(const TriangleMesh& mesh, const RayTree& tree, con
   const auto hit = tree.first_hit(origin, direction);
   ASSERT_EQ(hit.has_value(), expected < kFar) << "expected at " << expected;
   if (!hit) return;
-  const double tolerance = kRoundOff * (size + expected * direction.norm());
+  const double tolerance = kRayRoundOff * (size + expected * direction.norm());
   EXPECT_NEAR(hit->distance * direction.norm(), expected * direction.norm(), tolerance);
   EXPECT_LE((position_at(mesh, hit->point) - origin - hit->distance * direction).norm(), tolerance);
   expect_valid_weights(hit->point);
@@ -237,7 +237,7 @@ TEST(RayTree, FindsTheSameAtEveryScaleOfModelAndDirection) {
       ASSERT_TRUE(hit);
       EXPECT_EQ(hit->point.face, expected->point.face);
       if (distance == 0 || distance == kFar) continue;  // the answer is no double
-      EXPECT_NEAR(hit->distance / distance, 1, kRoundOff);
+      EXPECT_NEAR(hit->distance / distance, 1, kRayRoundOff);
     }
   }
 }
@@ -252,7 +252,7 @@ TEST(RayTree, ThatIsMovedMeetsWhatOneThatIsBuiltMeets) {
   const auto fitted = tree_of(mesh).moved(moved);
   ASSERT_TRUE(fitted);
   const RayTree built = tree_of(moved);
-  std::mt19937 random(kSeed);
+  std::mt19937 random(kRaySeed);
   std::normal_distribution<double> normal;
   int hits = 0;
   for (int i = 0; i < 2000; ++i) {
@@ -263,7 +263,7 @@ TEST(RayTree, ThatIsMovedMeetsWhatOneThatIsBuiltMeets) {
     if (!a) continue;
     ++hits;
     EXPECT_EQ(a->point.face, b->point.face);
-    EXPECT_NEAR(a->distance, b->distance, kRoundOff * a->distance);
+    EXPECT_NEAR(a->distance, b->distance, kRayRoundOff * a->distance);
   }
   EXPECT_GT(hits, 200);
 }

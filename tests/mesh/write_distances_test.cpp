@@ -18,7 +18,7 @@ namespace {
 
 const std::vector<double> kDistances = {0, 0.1, 1. / 3, 1e300, kUnreached};
 
-TriangleMesh pyramid() { return *TriangleMesh::build(pyramid_positions(), pyramid_faces()); }
+TriangleMesh pyramid_mesh() { return *TriangleMesh::build(pyramid_positions(), pyramid_faces()); }
 
 template <class T>
 std::vector<T> values_at(const std::string& bytes, std::size_t start, std::size_t count) {
@@ -31,7 +31,7 @@ std::vector<T> values_at(const std::string& bytes, std::size_t start, std::size_
 class DistanceFile : public testing::Test {
  protected:
   std::string written(const char* name) {
-    const Result<void> done = write_distances(directory.path(name), pyramid(), kDistances);
+    const Result<void> done = write_distances(directory.path(name), pyramid_mesh(), kDistances);
     EXPECT_TRUE(done) << done.error().message;
     return bytes_of(directory.path(name));
   }
@@ -107,7 +107,7 @@ std::vector<DataField> fields() {
 /// Text, which other programs read with fields of faces.
 TEST_F(DistanceFile, ply_holds_fields_of_vertices_and_faces_and_still_reads_back) {
   const std::string path = directory.path("f.ply");
-  ASSERT_TRUE(write_distances(path, pyramid(), kDistances, {}, fields()));
+  ASSERT_TRUE(write_distances(path, pyramid_mesh(), kDistances, {}, fields()));
   const std::string bytes = bytes_of(path);
   EXPECT_TRUE(bytes.starts_with("ply\nformat ascii 1.0\n"));
   EXPECT_NE(bytes.find("property double error\nelement face"), std::string::npos);
@@ -132,7 +132,8 @@ TEST_F(DistanceFile, ply_holds_fields_of_vertices_and_faces_and_still_reads_back
 
 TEST_F(DistanceFile, vtp_holds_fields_as_point_and_cell_data) {
   const std::string path = directory.path("f.vtp");
-  ASSERT_TRUE(write_distances(path, pyramid(), kDistances, std::vector<Index>(5, 0), fields()));
+  ASSERT_TRUE(
+      write_distances(path, pyramid_mesh(), kDistances, std::vector<Index>(5, 0), fields()));
   const std::string bytes = bytes_of(path);
   const std::size_t data = bytes.find("<AppendedData encoding=\"raw\">\n_") + 31;
   const auto start_of = [&](const std::string& name) {
@@ -153,12 +154,12 @@ TEST_F(DistanceFile, vtp_holds_fields_as_point_and_cell_data) {
 TEST_F(DistanceFile, csv_holds_fields_of_vertices_and_npy_none) {
   const std::vector<DataField> all = fields();
   const std::string path = directory.path("f.csv");
-  ASSERT_TRUE(write_distances(path, pyramid(), kDistances, {}, std::span(all).first(1)));
+  ASSERT_TRUE(write_distances(path, pyramid_mesh(), kDistances, {}, std::span(all).first(1)));
   EXPECT_EQ(bytes_of(path),
             "vertex,distance,error\n0,0,0\n1,0.1,-0.5\n2,0.3333333333333333,0.25\n"
             "3,1e+300,1e-300\n4,inf,inf\n");
   for (const char* name : {"g.csv", "g.npy"}) {
-    const auto refused = write_distances(directory.path(name), pyramid(), kDistances, {}, all);
+    const auto refused = write_distances(directory.path(name), pyramid_mesh(), kDistances, {}, all);
     ASSERT_FALSE(refused);
     EXPECT_NE(sentence(refused.error()).find("write "), std::string::npos)
         << refused.error().message;
@@ -167,7 +168,7 @@ TEST_F(DistanceFile, csv_holds_fields_of_vertices_and_npy_none) {
 }
 
 TEST_F(DistanceFile, obj_is_refused_with_the_formats_that_hold_values) {
-  const Result<void> done = write_distances(directory.path("a.obj"), pyramid(), kDistances);
+  const Result<void> done = write_distances(directory.path("a.obj"), pyramid_mesh(), kDistances);
   ASSERT_FALSE(done);
   EXPECT_NE(sentence(done.error()).find("holds no value per vertex; write .ply or .vtp"),
             std::string::npos);
@@ -177,7 +178,7 @@ TEST_F(DistanceFile, obj_is_refused_with_the_formats_that_hold_values) {
 TEST_F(DistanceFile, of_an_unknown_extension_is_told_which_there_are) {
   EXPECT_EQ(sentence(check_distance_path("a.xyz").error()),
             "a.xyz: unknown extension \".xyz\"; there are .csv .npy .ply .vtp");
-  EXPECT_EQ(sentence(write_mesh("a.vtp", pyramid()).error()),
+  EXPECT_EQ(sentence(write_mesh("a.vtp", pyramid_mesh()).error()),
             "a.vtp: unknown extension \".vtp\"; there are .obj .ply .off .stl");
   EXPECT_TRUE(check_distance_path("-"));
   EXPECT_TRUE(check_distance_path("dir.x/a.CSV"));
@@ -185,7 +186,7 @@ TEST_F(DistanceFile, of_an_unknown_extension_is_told_which_there_are) {
 
 TEST_F(DistanceFile, needs_one_distance_per_vertex) {
   const Result<void> done =
-      write_distances(directory.path("a.csv"), pyramid(), std::vector<double>(4));
+      write_distances(directory.path("a.csv"), pyramid_mesh(), std::vector<double>(4));
   ASSERT_FALSE(done);
   EXPECT_NE(sentence(done.error()).find("4 distances for 5 vertices"), std::string::npos);
 }
@@ -255,7 +256,7 @@ TEST_F(WrittenFile, without_permission_keeps_the_old_one) {
 
 TEST_F(WrittenFile, to_standard_output_is_what_was_given) {
   testing::internal::CaptureStdout();
-  const Result<void> done = write_distances("-", pyramid(), kDistances);
+  const Result<void> done = write_distances("-", pyramid_mesh(), kDistances);
   EXPECT_EQ(testing::internal::GetCapturedStdout(),
             "vertex,distance\n0,0\n1,0.1\n2,0.3333333333333333\n3,1e+300\n4,inf\n");
   EXPECT_TRUE(done);

@@ -24,7 +24,7 @@ std::vector<SourceSet> streamed_sets() {
   return sets;
 }
 
-std::shared_ptr<const DistanceMethod> method_of(MethodKind kind, int threads) {
+std::shared_ptr<const DistanceMethod> method_on_threads(MethodKind kind, int threads) {
   MethodOptions options;
   options.method = kind;
   options.threads = threads;
@@ -35,10 +35,10 @@ class StreamOfAnswers : public testing::TestWithParam<MethodKind> {};
 
 TEST_P(StreamOfAnswers, HasTheBitsOfOneCallWhateverThreadsAndChunksOfSixteen) {
   const auto sets = streamed_sets();
-  const auto all = method_of(GetParam(), 1)->solve_each(sets);
+  const auto all = method_on_threads(GetParam(), 1)->solve_each(sets);
   ASSERT_TRUE(all);
   for (const int threads : {1, 3}) {
-    const auto method = method_of(GetParam(), threads);
+    const auto method = method_on_threads(GetParam(), threads);
     for (const std::size_t chunk : {std::size_t{16}, std::size_t{32}, std::size_t{96}}) {
       std::size_t next = 0;
       const auto sink = [&](std::size_t set, DistanceResult&& answer) -> Result<void> {
@@ -56,7 +56,7 @@ TEST_P(StreamOfAnswers, HasTheBitsOfOneCallWhateverThreadsAndChunksOfSixteen) {
 TEST_P(StreamOfAnswers, HasThoseOfSingleSolves) {
   constexpr double kRoundOff = 1e-12;  // of the largest distance: blocks of columns round otherwise
   const auto sets = streamed_sets();
-  const auto method = method_of(GetParam(), 1);
+  const auto method = method_on_threads(GetParam(), 1);
   const auto done = stream_answers(
       *method, sets, {5, {}}, [&](std::size_t set, DistanceResult&& answer) -> Result<void> {
         const auto single = method->solve(sets[set]);
@@ -99,7 +99,7 @@ TEST(StreamAnswers, HaveTheBitsOfOneCallBesideASourceThatIsSolvedAlone) {
 }
 
 TEST(StreamAnswers, NeedsNoThreadBesideTheCallers) {
-  const auto method = method_of(MethodKind::kWavefront, 1);
+  const auto method = method_on_threads(MethodKind::kWavefront, 1);
   const NoThreads none;
   if (!none.works()) GTEST_SKIP() << "threads start here whatever their stacks";
   std::size_t taken = 0;
@@ -113,7 +113,7 @@ TEST(StreamAnswers, NeedsNoThreadBesideTheCallers) {
 }
 
 TEST(StreamAnswers, CallNoSinkAgainAfterItsError) {
-  const auto method = method_of(MethodKind::kWavefront, 1);
+  const auto method = method_on_threads(MethodKind::kWavefront, 1);
   std::atomic<int> calls = 0;
   const auto done = stream_answers(*method, streamed_sets(), {4, {}},
                                    [&](std::size_t set, DistanceResult&&) -> Result<void> {
@@ -130,7 +130,7 @@ TEST(StreamAnswers, PassOnTheErrorOfASetAndTheAnswersOfTheChunksBefore) {
   auto sets = streamed_sets();
   sets[9] = SourceSet::of_vertices({100000});
   std::size_t taken = 0;
-  const auto done = stream_answers(*method_of(MethodKind::kHeat, 2), sets, {4, {}},
+  const auto done = stream_answers(*method_on_threads(MethodKind::kHeat, 2), sets, {4, {}},
                                    [&](std::size_t, DistanceResult&&) -> Result<void> {
                                      ++taken;
                                      return {};
@@ -144,7 +144,7 @@ TEST(StreamAnswers, PassOnTheErrorOfASetAndTheAnswersOfTheChunksBefore) {
 TEST(StreamAnswers, CanBeCancelledBetweenChunksAndSayWhatIsDone) {
   std::vector<double> shares;
   const auto done = stream_answers(
-      *method_of(MethodKind::kHeat, 1), streamed_sets(), {4, {}},
+      *method_on_threads(MethodKind::kHeat, 1), streamed_sets(), {4, {}},
       [](std::size_t, DistanceResult&&) { return Result<void>(); },
       [&](std::string_view stage, double share) {
         if (stage == kSourcesStage) shares.push_back(share);

@@ -19,7 +19,7 @@ extern char** environ;  // NOLINT: POSIX has it so
 namespace geotherm::test {
 namespace {
 
-constexpr int kPatience = 20000;  // milliseconds, for a server on a busy machine
+constexpr int kServerPatience = 20000;  // milliseconds, for a server on a busy machine
 
 /// The number that the server writes when it is ready, followed by a new line.
 std::string number_from(int pipe) {
@@ -27,7 +27,7 @@ std::string number_from(int pipe) {
   while (text.empty() || text.back() != '\n') {
     pollfd ready{pipe, POLLIN, 0};
     char letter = 0;
-    if (::poll(&ready, 1, kPatience) != 1 || ::read(pipe, &letter, 1) != 1) {
+    if (::poll(&ready, 1, kServerPatience) != 1 || ::read(pipe, &letter, 1) != 1) {
       throw std::runtime_error("Xvfb does not start");
     }
     text += letter;

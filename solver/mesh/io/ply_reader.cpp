@@ -16,7 +16,7 @@ namespace {
 constexpr const char* kStrips = "tristrips";
 
 /// The property with the corners of a face or a strip; one more than there are where none has them.
-std::size_t corners_of(const PlyElement& element) {
+std::size_t corner_count_of(const PlyElement& element) {
   int corners = element.find("vertex_indices", true);
   if (corners < 0) corners = element.find("vertex_index", true);
   return corners < 0 ? element.properties.size() : static_cast<std::size_t>(corners);
@@ -91,7 +91,7 @@ void read_faces(Body& body, const PlyElement& element, std::size_t corners,
 template <class Body>
 void read_strips(Body& body, const PlyElement& element, std::int64_t vertex_count, RawMesh& mesh) {
   constexpr std::int64_t kSeparator = -1;
-  const std::size_t corners = corners_of(element);
+  const std::size_t corners = corner_count_of(element);
   std::vector<Index> strip;
   for (std::int64_t row = 0; row < element.count; ++row) {
     body.now_reading(element, row);
@@ -131,7 +131,7 @@ void check_elements(std::string_view bytes, const PlyHeader& header) {
   }
   for (const char* const name : {"face", kStrips}) {
     const PlyElement* const element = header.find(name);
-    if (element == nullptr || corners_of(*element) < element->properties.size()) continue;
+    if (element == nullptr || corner_count_of(*element) < element->properties.size()) continue;
     fail(std::string("the element \"") + name +
          "\" has no list \"vertex_indices\" or \"vertex_index\"");
   }
@@ -144,7 +144,7 @@ RawMesh read_body(Body body, const PlyHeader& header) {
     if (element.name == "vertex") {
       read_vertices(body, element, mesh);
     } else if (element.name == "face") {
-      read_faces(body, element, corners_of(element), header.find("vertex")->count, mesh);
+      read_faces(body, element, corner_count_of(element), header.find("vertex")->count, mesh);
     } else if (element.name == kStrips) {
       read_strips(body, element, header.find("vertex")->count, mesh);
     } else {
