@@ -271,7 +271,7 @@ TEST(Relaxation, OnThePlaneIsLloydsIteration) {
   }
 }
 
-TEST(Relaxation, LowersTheEnergyWithEveryStepUntilItSettles) {
+TEST(Relaxation, LowersTheEnergyWithEveryStepUntilItSettlesSlow) {
   const MeshPtr mesh = finish(torus(60, 30, 0.4));
   MethodOptions options;
   options.method = MethodKind::kWavefront;

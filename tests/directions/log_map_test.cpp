@@ -47,7 +47,7 @@ void expect_plane(const MeshPtr& mesh, const SurfacePoint& point) {
 }
 
 /// Waves from all kinds of points, far beyond where windows go along with them.
-TEST(LogMap, ByWavesOfThePlaneIsNearThePlane) {
+TEST(LogMap, ByWavesOfThePlaneIsNearThePlaneSlow) {
   const MeshPtr mesh = finish(jittered_plane(120, 0.2, 9));
   for (const MethodKind method : {MethodKind::kWavefront, MethodKind::kWavefrontFine}) {
     for (const SurfacePoint& point :
@@ -225,7 +225,7 @@ TEST(LogMap, OfSpheresConvergesToTheirs) {
   EXPECT_LT(finest, 0.01);
 }
 
-TEST(LogMap, ByWavesOfASphereIsAsNear) {
+TEST(LogMap, ByWavesOfASphereIsAsNearSlow) {
   for (const MethodKind method : {MethodKind::kWavefront, MethodKind::kWavefrontFine}) {
     EXPECT_LT(mean_error_on_sphere(6, 20, method), 0.005);
   }

@@ -131,7 +131,7 @@ TEST(NativeBackend, RoundsWithoutAlarm) {
   EXPECT_EQ(answer->warnings, std::vector<Warning>());
 }
 
-TEST(NativeBackend, KeepsDoublesWhereWeightsDifferByManyOrders) {
+TEST(NativeBackend, KeepsDoublesWhereWeightsDifferByManyOrdersSlow) {
   // Two tori that a thread of needles joins: what passes through it is next to nothing beside what
   // passes within them, and would drown in the rounding of narrow numbers.
   Draft draft = torus(200, 120, 0.4);

@@ -28,7 +28,7 @@ struct ThreadCase {
 
 const ThreadCase kThreadCases[] = {
     {"one_set", [](HeatOptions&) {}, 1},
-    {"four_sets", [](HeatOptions&) {}, 4},
+    {"four_sets", [](HeatOptions&) {}, 4, kFewerCells},
     {"refined", [](HeatOptions& o) { o.precision = Precision::kRefined; }, 1, kFewerCells},
     {"pin_vertex", [](HeatOptions& o) { o.constraint.mode = ConstraintMode::kPinVertex; }, 1,
      kFewerCells},
@@ -75,10 +75,10 @@ class QueryThreads : public testing::TestWithParam<ThreadCase> {
 };
 
 TEST_P(QueryThreads, DoNotChangeABit) {
-  const auto of_one = distances(1);
-  for (const int threads : kSanitized ? std::vector{5} : std::vector{2, 5}) {
-    EXPECT_EQ(distances(threads), of_one) << threads;
-  }
+  const auto of_five = distances(5);
+  if (kSanitized) return;  // a sanitizer looks at the threads alone
+  EXPECT_EQ(distances(1), of_five);
+  EXPECT_EQ(distances(2), of_five);
 }
 
 INSTANTIATE_TEST_SUITE_P(Cases, QueryThreads, testing::ValuesIn(kThreadCases),
