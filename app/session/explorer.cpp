@@ -143,16 +143,9 @@ Result<void> Explorer::load(const ExploreRequest& request, const Progress& progr
   model->base = std::move(base);
   Explored first;
   first.model = model;
-  early(first);  // people wait for the picture: what it can do without comes after it
-  auto rays = RayTree::build(mesh, progress);
-  if (!rays) return rays.error();
-  auto whole = std::make_shared<ExploredModel>(*model);
-  whole->rays = std::make_shared<const RayTree>(*std::move(rays));
-  read_ = model_ = std::move(whole);
-  lit_ = false;
-  first.model = model_;
-  early(first);
-  rays_ = read_->rays;
+  early(first);  // people wait for the picture, then for distances: the rest comes after them
+  read_ = model_ = std::move(model);
+  is_whole_ = false;
   solver_.emplace(model_->model, ModelSolver::Use::kSession);
   solver_->set_summary(model_->mesh);
   model_text_ = request.model;
@@ -223,7 +216,7 @@ Result<void> Explorer::move(const ExploreRequest& request, const Progress& progr
 }
 
 Result<void> Explorer::make_rays(ExploredModel& model, const Progress& progress) {
-  auto rays = rays_->moved(model.model.mesh);
+  auto rays = rays_ ? rays_->moved(model.model.mesh) : std::optional<RayTree>();
   if (!rays) {
     auto built = RayTree::build(model.model.mesh, progress);
     if (!built) return built.error();
@@ -368,7 +361,9 @@ Result<Explored> Explorer::explore(const ExploreRequest& request, const Progress
   }
   Result<Explored> explored = work_out(request, progress);
   const bool cancelled = !explored && explored.error().code == ErrorCode::kCancelled;
-  if (!lit_ && request.quality && !cancelled) light(explored, early);
+  if (!is_whole_ && request.quality && !cancelled) {
+    if (auto done = make_whole(explored, progress, early); !done) return done.error();
+  }
   if (!explored || !explored->a) return explored;
   if (auto done = follow_up(request, *explored, progress, early); !done) return done.error();
   return explored;

@@ -61,8 +61,8 @@ struct ExploreRequest {
 /// a time.
 class Explorer {
  public:
-  /// Receives partial results: the model before it can be picked on, and before it is solved on;
-  /// answers before the light that falls on the model, the centre of their sources and the check.
+  /// Receives partial results: the model before it is solved on, lit and can be picked on; answers
+  /// before that, too, and before the centre of their sources and the check.
   using Early = std::function<void(Explored)>;
 
   /// Errors: those of load_model, resolve_sources and ModelSolver; kCancelled.
@@ -89,7 +89,7 @@ class Explorer {
                            const Progress& progress);
   bool knows_centre(const ExploreRequest& request, Explored& explored) const;
   Result<Explored> work_out(const ExploreRequest& request, const Progress& progress);
-  void light(Result<Explored>& explored, const Early& early);
+  Result<void> make_whole(Result<Explored>& explored, const Progress& progress, const Early& early);
   Result<void> follow_up(const ExploreRequest& request, Explored& explored,
                          const Progress& progress, const Early& early);
 
@@ -111,7 +111,7 @@ class Explorer {
   std::optional<Sequence> sequence_;            ///< of `read_`
   std::shared_ptr<const TriangleMesh> carved_;  ///< what `sculptor_` began with
   std::optional<Sculptor> sculptor_;            ///< from the first stroke on
-  bool lit_ = true;                             ///< the light that falls on `read_` is known
+  bool is_whole_ = true;                        ///< `read_` is lit and can be picked on
   bool inspected_ = true;                       ///< ExploredModel::mesh is of `model_` as it is
   std::string model_text_;
   ModelReading reading_;

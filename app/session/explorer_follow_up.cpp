@@ -6,19 +6,27 @@
 
 namespace geotherm::app {
 
-/// Finds how light falls on the model as its file has it; answers are shown before.
-void Explorer::light(Result<Explored>& explored, const Early& early) {
+/// Finds how light falls on the model as its file has it, and what picks on it; answers are shown
+/// before.
+Result<void> Explorer::make_whole(Result<Explored>& explored, const Progress& progress,
+                                  const Early& early) {
   if (explored && explored->a) {
     early(*explored);
     explored->shown = true;
   }
-  auto lit = std::make_shared<ExploredModel>(*read_);
-  auto base = std::make_shared<PictureData>(*lit->base);
+  auto rays = RayTree::build(read_->model.mesh, progress);
+  if (!rays) return rays.error();
+  auto whole = std::make_shared<ExploredModel>(*read_);
+  whole->rays = std::make_shared<const RayTree>(*std::move(rays));
+  auto base = std::make_shared<PictureData>(*whole->base);
   light_picture(*base);
-  lit->base = std::move(base);
-  lit_ = true;
-  if (model_ == read_) model_ = lit;
-  read_ = std::move(lit);
+  whole->base = std::move(base);
+  is_whole_ = true;
+  if (model_ == read_) {
+    model_ = whole;
+    rays_ = whole->rays;
+  }
+  read_ = std::move(whole);
   if (explored) {
     explored->model = model_;
   } else if (model_ == read_) {  // without an answer, it is seen all the same
@@ -26,6 +34,7 @@ void Explorer::light(Result<Explored>& explored, const Early& early) {
     model.model = model_;
     early(std::move(model));
   }
+  return {};
 }
 
 /// If no path is found, the distances are still shown.
