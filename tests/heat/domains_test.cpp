@@ -290,13 +290,12 @@ INSTANTIATE_TEST_SUITE_P(Backends, OnTets, testing::ValuesIn(backend_names()),
                          });
 
 TEST(Domains, AnswersHaveTheSameBitsForAnyNumberOfThreadsParallel) {
-  // Several pieces of rows, and more sets than one block has.
+  // Several pieces of rows, more sets than one block has; a sanitizer looks at the threads alone.
   const auto cells = std::make_shared<const CellComplex>(box_of_tets(kSanitized ? 21 : 24));
   std::vector<SourceSet> sets;
   for (Index v = 0; v < (kSanitized ? 18 : 40); ++v)
     sets.push_back(SourceSet::of_vertices({v * 331}));
   std::vector<std::vector<double>> first;
-  // A sanitizer looks at the threads alone.
   for (const int threads : kSanitized ? std::vector{4} : std::vector{1, 4}) {
     HeatOptions options;
     options.threads = threads;
