@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <new>
 #include <span>
 #include <string>
@@ -13,6 +14,8 @@
 #include "geotherm/domains.h"
 #include "solver/core/text.h"
 #include "solver/geometry/cell_mesh.h"
+#include "solver/geometry/polygon_fans.h"
+#include "solver/mesh/io/raw_mesh.h"
 
 namespace geotherm {
 namespace {
@@ -20,8 +23,9 @@ namespace {
 /// A face of k corners has 2 k^2 numbers, and takes k^3 steps.
 constexpr std::size_t kMaxCorners = 256;
 
-/// Height of a triangle at the virtual vertex, in its side, at least: in a concave face that vertex
-/// may lie beside the line of a side, and would have the value that the side is extrapolated to.
+/// Height of a triangle at the virtual vertex, in its side, at least, of a face that these
+/// triangles are not: the vertex may lie on the line of a side, and would have the value that the
+/// side is extrapolated to.
 constexpr double kLeastHeight = 0.1;
 
 /// The triangle between a side and the virtual vertex of its face.
@@ -61,16 +65,77 @@ Vec3 virtual_vertex(std::span<const Vec3> corners) {
 }
 
 /// What a face gives its corners: a cell for each triangle at its virtual vertex. The vertex's
-/// value is the mean of the corners' that makes it harmonic on these triangles.
+/// value is the mean of the corners' that makes it harmonic on these triangles. Or a cell for each
+/// triangle that it was cut into.
 struct PolygonElement {
-  double width = 0;                         ///< mean distance between two corners
-  Vec3 apex = Vec3::Zero();                 ///< the virtual vertex
+  double width = 0;  ///< mean distance between two corners
+  /// The virtual vertex; not finite: it was cut.
+  Vec3 apex = Vec3::Constant(std::numeric_limits<double>::quiet_NaN());
   std::vector<double> areas;                ///< of each triangle; none: the face has no area
   std::vector<Eigen::Matrix2Xd> gradients;  ///< of each triangle: 2 x k
 };
 
+std::array<double, 3> side_lengths(const Vec3& a, const Vec3& b, const Vec3& c) {
+  return {(b - a).norm(), (c - b).norm(), (a - c).norm()};
+}
+
+/// Whether the triangles at the virtual vertex are the face, and none is nearly flat.
+bool is_fan(std::span<const Vec3> at, const Vec3& apex) {
+  if (!sees_all_sides(at, apex)) return false;
+  for (std::size_t i = 0; i < at.size(); ++i) {
+    if (is_flat_triangle(side_lengths(at[i], at[(i + 1) % at.size()], apex))) return false;
+  }
+  return true;
+}
+
+/// Flips the longest side of a triangle that is nearly flat, which another one of the face has as
+/// well; false where there is no such.
+bool flip_flat_triangle(const std::vector<Vec3>& at, std::vector<Face>& triangles, Face& flat) {
+  std::size_t middle = 0;  // the corner across from the longest side
+  double longest = 0;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const double length = (at[flat[(k + 1) % 3]] - at[flat[(k + 2) % 3]]).norm();
+    if (length > longest) middle = k;
+    longest = std::max(longest, length);
+  }
+  const Index between = flat[middle], from = flat[(middle + 1) % 3], to = flat[(middle + 2) % 3];
+  for (Face& other : triangles) {
+    const auto has = [&other](Index corner) { return std::ranges::count(other, corner) > 0; };
+    if (!has(from) || !has(to) || has(between)) continue;
+    const Index across = other[0] + other[1] + other[2] - from - to;
+    flat = {from, between, across};
+    other = {between, to, across};
+    std::ranges::sort(flat);
+    std::ranges::sort(other);
+    return true;
+  }
+  return false;
+}
+
+/// The triangles that triangulated() cuts a face into, by the places of their corners in it,
+/// ascending; those that are nearly flat are flipped. None where one has a side without length.
+std::vector<Face> cut_into_triangles(const std::vector<Vec3>& at, io::PolygonCutter& cutter) {
+  std::vector<Face> out;
+  for (Index k = 2; k < std::ssize(at); ++k) out.push_back({0, k - 1, k});
+  (void)cutter.triangulate(at, out);
+  for (Face& face : out) std::ranges::sort(face);
+  const auto is_flat = [&at](const Face& face) {
+    return is_flat_triangle(side_lengths(at[face[0]], at[face[1]], at[face[2]]));
+  };
+  for (std::size_t flips = 0; flips <= out.size(); ++flips) {
+    const auto flat = std::ranges::find_if(out, is_flat);
+    if (flat == out.end() || !flip_flat_triangle(at, out, *flat)) break;
+  }
+  const auto has_point = [&at](const Face& face) {
+    return at[face[0]] == at[face[1]] || at[face[1]] == at[face[2]] || at[face[2]] == at[face[0]];
+  };
+  if (std::ranges::any_of(out, has_point)) out.clear();
+  return out;
+}
+
 /// Preconditions: three corners or more, in range.
-PolygonElement polygon_element(const std::vector<Vec3>& positions, std::span<const Index> face) {
+PolygonElement polygon_element(const std::vector<Vec3>& positions, std::span<const Index> face,
+                               io::PolygonCutter& cutter) {
   const std::size_t k = face.size();
   PolygonElement out;
   std::vector<Vec3> at;  // in mean distances between two corners
@@ -85,30 +150,49 @@ PolygonElement polygon_element(const std::vector<Vec3>& positions, std::span<con
   // Flatter than this, rounding decides where the plane lies.
   constexpr double kFlat = 1e-12;
   if (!(twice.norm() / 2 > kFlat)) return out;
-  // A triangle is one cell: its third corner in place of a virtual vertex.
-  const bool whole = k == 3;
-  const Vec3 apex = whole ? at[2] : virtual_vertex(at);
+  const Vec3 apex = k == 3 ? at[2] : virtual_vertex(at);
+  const bool fan_is_face = k > 3 && is_fan(at, apex);
+  std::vector<Face> triangles;
+  if (k == 3) {
+    triangles = {{0, 1, 2}};
+  } else if (!fan_is_face) {
+    triangles = cut_into_triangles(at, cutter);
+  }
+  const auto count = static_cast<Eigen::Index>(k);
+  const auto put = [&out](const FanTriangle& t, const Eigen::Matrix2Xd& gradient) {
+    out.gradients.emplace_back(gradient / out.width);
+    out.areas.push_back(t.area * out.width * out.width);
+  };
+  for (const Face& triangle : triangles) {
+    const FanTriangle t =
+        fan_triangle(at[triangle[0]], at[triangle[1]], at[triangle[2]], kFlatTriangle);
+    Eigen::Matrix2Xd gradient = Eigen::Matrix2Xd::Zero(2, count);
+    gradient.col(triangle[0]) = t.from;
+    gradient.col(triangle[1]) = t.to;
+    gradient.col(triangle[2]) = t.apex;
+    if (t.area > 0) put(t, gradient);
+  }
+  if (!triangles.empty()) return out;
+
   out.apex = positions[face[0]] + out.width * apex;
+  const double least = fan_is_face ? 0 : kLeastHeight;
   std::vector<FanTriangle> fan;
-  Eigen::VectorXd pull = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(k));
-  for (std::size_t i = 0; i < (whole ? 1 : k); ++i) {
+  Eigen::VectorXd pull = Eigen::VectorXd::Zero(count);
+  for (std::size_t i = 0; i < k; ++i) {
     const auto next = static_cast<Eigen::Index>((i + 1) % k);
-    const FanTriangle& t =
-        fan.emplace_back(fan_triangle(at[i], at[next], apex, whole ? 0 : kLeastHeight));
+    const FanTriangle& t = fan.emplace_back(fan_triangle(at[i], at[next], apex, least));
     if (!(t.area > 0)) continue;
     pull[static_cast<Eigen::Index>(i)] -= t.area * t.apex.dot(t.from);
     pull[next] -= t.area * t.apex.dot(t.to);
   }
-  const Eigen::VectorXd weights =
-      whole ? Eigen::VectorXd(Eigen::Vector3d::UnitZ()) : Eigen::VectorXd(pull / pull.sum());
-  for (std::size_t i = 0; i < fan.size(); ++i) {
+  const Eigen::VectorXd weights = pull / pull.sum();
+  for (std::size_t i = 0; i < k; ++i) {
     const FanTriangle& t = fan[i];
     if (!(t.area > 0)) continue;
     Eigen::Matrix2Xd gradient = t.apex * weights.transpose();
     gradient.col(static_cast<Eigen::Index>(i)) += t.from;
     gradient.col(static_cast<Eigen::Index>((i + 1) % k)) += t.to;
-    out.gradients.emplace_back(gradient / out.width);
-    out.areas.push_back(t.area * out.width * out.width);
+    put(t, gradient);
   }
   return out;
 }
@@ -145,6 +229,7 @@ Result<CellComplex> cells_of(const PolygonMesh& mesh) try {
     return Error{ErrorCode::kBadInput,
                  "vertex " + std::to_string(v) + " has a coordinate that is not finite"};
   }
+  io::PolygonCutter cutter(mesh.corners.size());
   std::size_t left_out = 0;
   std::vector<std::array<Index, 2>> edges;
   for (std::size_t f = 0; f + 1 < mesh.start.size(); ++f) {
@@ -170,7 +255,7 @@ Result<CellComplex> cells_of(const PolygonMesh& mesh) try {
     std::ranges::sort(sorted);
     const bool simple = face.size() >= 3 && std::ranges::adjacent_find(sorted) == sorted.end();
     const PolygonElement element =
-        simple ? polygon_element(mesh.positions, face) : PolygonElement{};
+        simple ? polygon_element(mesh.positions, face, cutter) : PolygonElement{};
     if (element.areas.empty()) {
       ++left_out;
       continue;

@@ -16,13 +16,12 @@ namespace {
 /// Minimum faces per thread.
 constexpr std::int64_t kFanGrain = 1 << 12;
 
-/// Triangles are flat whose longest side is shorter than the two others by less than this share of
-/// it: the rounding of lengths would decide their angles.
-constexpr double kFlatFan = 1e-5;
-
-bool is_flat_triangle(const std::array<double, 3>& l) {
-  const double longest = std::ranges::max(l);
-  return !(l[0] + l[1] + l[2] - 2 * longest > kFlatFan * longest);
+/// `vertices`: above all corners.
+CleanFaces as_clean_faces(Index vertices, const std::vector<Face>& faces, int threads) {
+  CleanFaces out;
+  out.faces = faces;
+  out.edges = EdgeTable(vertices, faces, threads);
+  return out;
 }
 
 void join_sides(IntrinsicMesh& mesh, Side a, Side b) {
@@ -53,7 +52,7 @@ class FanBuilder {
     parallel_for(threads_, faces_, kFanGrain, [&](std::int64_t begin, std::int64_t end) {
       std::vector<Vec3> at;
       for (std::int64_t f = begin; f < end; ++f) {
-        whole[f] = lay_fan(static_cast<Index>(f), at) ? 1 : 0;
+        whole[f] = lay_triangles_of(static_cast<Index>(f), at) ? 1 : 0;
       }
     });
     Index kept = 0;
@@ -73,7 +72,14 @@ class FanBuilder {
   void join_within_faces() {
     for (Index f = 0; f < faces_; ++f) {
       const Index begin = out_.first[f], count = out_.first[f + 1] - begin;
-      for (Index i = 0; i < count && !out_.is_triangle(f); ++i) {
+      if (is_cut(given_, out_.first_cell[f])) {
+        for (Side side = 3 * begin; side < 3 * (begin + count); ++side) {
+          const Side twin = side_of_face(f, second_of(side), first_of(side));
+          if (twin != kNoSide) join_sides(mesh_, side, twin);
+        }
+        continue;
+      }
+      for (Index i = 0; i < count; ++i) {
         join_sides(mesh_, 3 * (begin + i) + 1, 3 * (begin + (i + 1) % count) + 2);
       }
     }
@@ -83,12 +89,11 @@ class FanBuilder {
   void join_faces() {
     const auto emit = [this](std::size_t f, const auto& put) {
       const auto corners = given_.corners_of(out_.first_cell[f]);
-      const bool there = out_.has_triangles(static_cast<Index>(f));
       for (std::size_t i = 0; i < corners.size(); ++i) {
         const Index from = corners[i], to = corners[(i + 1) % corners.size()];
-        const Index place = static_cast<Index>(corners.size() == 3 ? i : 3 * i);
         put(std::min(from, to),
-            OuterSide{std::max(from, to), there ? 3 * out_.first[f] + place : kNoSide, from < to});
+            OuterSide{std::max(from, to), side_of_face(static_cast<Index>(f), from, to),
+                      from < to});
       }
     };
     std::vector<std::uint32_t> start;
@@ -115,25 +120,48 @@ class FanBuilder {
 
   double length(const Vec3& a, const Vec3& b) const { return ((b - a) / unit_).norm(); }
 
+  Index first_of(Side side) const { return mesh_.faces[face_of(side)][corner_of(side)]; }
+  Index second_of(Side side) const {
+    return mesh_.faces[face_of(side)][next_corner(corner_of(side))];
+  }
+
+  /// The side of the triangles of a face that runs so; kNoSide: there is none.
+  Side side_of_face(Index f, Index from, Index to) const {
+    for (Side side = 3 * out_.first[f]; side < 3 * out_.first[f + 1]; ++side) {
+      if (first_of(side) == from && second_of(side) == to) return side;
+    }
+    return kNoSide;
+  }
+
   /// False where the triangles are not the face.
-  bool lay_fan(Index f, std::vector<Vec3>& at) {
+  bool lay_triangles_of(Index f, std::vector<Vec3>& at) {
     const Index begin = out_.first_cell[f], count = out_.first_cell[f + 1] - begin;
     const auto corners = given_.corners_of(begin);
     const auto k = static_cast<Index>(corners.size());
-    if (count != (k == 3 ? 1 : k)) return false;
     const std::vector<Vec3>& places = given_.positions;
-    const Vec3& origin = places[corners.front()];
     const Vec3& apex = given_.virtual_vertices[begin];
+    const auto put = [&](Index cell, const Face& face, const Vec3& third) {
+      mesh_.faces[cell] = face;
+      mesh_.lengths[cell] = {length(places[face[0]], places[face[1]]),
+                             length(places[face[1]], third), length(third, places[face[0]])};
+    };
+    if (is_cut(given_, begin)) {
+      if (count != k - 2) return false;
+      for (Index cell = begin; cell < begin + count; ++cell) {
+        const auto three = cut_corners(given_, cell);
+        if (three.empty()) return false;
+        const Index third = corners[three[2]];
+        put(cell, {corners[three[0]], corners[three[1]], third}, places[third]);
+      }
+      return true;
+    }
+    if (count != k) return false;
+    const Vec3& origin = places[corners.front()];
     at.clear();
     for (const Index v : corners) at.push_back((places[v] - origin) / unit_);
-    if (k > 3 && !sees_all_sides(at, (apex - origin) / unit_)) return false;
-    for (Index i = 0; i < count; ++i) {
-      const Index from = corners[i], to = corners[(i + 1) % k];
-      const Vec3& third = k == 3 ? places[corners[2]] : apex;
-      mesh_.faces[begin + i] = {from, to, k == 3 ? corners[2] : given_.vertices + f};
-      mesh_.lengths[begin + i] = {length(places[from], places[to]), length(places[to], third),
-                                  length(third, places[from])};
-      if (is_flat_triangle(mesh_.lengths[begin + i])) return false;
+    if (!sees_all_sides(at, (apex - origin) / unit_)) return false;
+    for (Index i = 0; i < k; ++i) {
+      put(begin + i, {corners[i], corners[(i + 1) % k], given_.vertices + f}, apex);
     }
     return true;
   }
@@ -173,6 +201,22 @@ bool sees_all_sides(std::span<const Vec3> corners, const Vec3& virtual_vertex) {
   return true;
 }
 
+bool is_flat_triangle(const std::array<double, 3>& lengths) {
+  const double longest = std::ranges::max(lengths);
+  return !(lengths[0] + lengths[1] + lengths[2] - 2 * longest > kFlatTriangle * longest);
+}
+
+std::vector<std::size_t> cut_corners(const CellComplex& given, Index cell) {
+  const std::size_t count = given.corners_of(cell).size();
+  std::vector<std::size_t> out;
+  for (std::size_t k = 0; k < count; ++k) {
+    const double* const gradient = given.gradients.data() + 2 * (given.start[cell] + k);
+    if (count == 3 || gradient[0] != 0 || gradient[1] != 0) out.push_back(k);
+  }
+  if (out.size() != 3) out.clear();
+  return out;
+}
+
 PolygonFans build_fans(const CellComplex& given, double unit, int threads) {
   PolygonFans out;
   FanBuilder builder(given, unit, threads, out);
@@ -180,6 +224,11 @@ PolygonFans build_fans(const CellComplex& given, double unit, int threads) {
   builder.lay_triangles();
   builder.join_within_faces();
   builder.join_faces();
+  if (std::ranges::any_of(out.mesh.lengths, is_flat_triangle)) {
+    (void)mollify(out.mesh.lengths,
+                  as_clean_faces(given.vertices + out.face_count(), out.mesh.faces, threads),
+                  threads);
+  }
   return out;
 }
 
@@ -208,9 +257,7 @@ void find_parts(const CellComplex& given, PolygonFans& fans) {
 bool cover_fans(std::span<const Vec3> places, PolygonFans& fans, int threads) {
   if (fans.folds.empty()) return false;
   IntrinsicMesh& mesh = fans.mesh;
-  CleanFaces clean;
-  clean.faces = mesh.faces;
-  clean.edges = EdgeTable(static_cast<Index>(places.size()), mesh.faces, threads);
+  const CleanFaces clean = as_clean_faces(static_cast<Index>(places.size()), mesh.faces, threads);
   std::vector<char> doubled(mesh.faces.size());
   std::ranges::transform(mesh.faces, doubled.begin(), [&fans](const Face& face) {
     return fans.is_not_manifold[fans.parts.of[face[0]]];

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <span>
 #include <vector>
 
@@ -14,9 +16,23 @@ namespace geotherm {
 /// turned to the side that their sum is.
 bool sees_all_sides(std::span<const Vec3> corners, const Vec3& virtual_vertex);
 
-/// The triangles at the virtual vertices of polygons as one intrinsic mesh, where they are the
-/// face: a face that does not see all its sides, has a side without length, or a triangle that is
-/// nearly flat has none. The virtual vertex of face i has the number V + i.
+/// The longest side of a triangle is shorter than the two others by this share of it at least, or
+/// the rounding of lengths would decide its angles.
+constexpr double kFlatTriangle = 1e-5;
+bool is_flat_triangle(const std::array<double, 3>& lengths);
+
+/// Whether a cell of a polygon is one of the triangles that its face was cut into.
+inline bool is_cut(const CellComplex& given, Index cell) {
+  return !given.virtual_vertices[cell].allFinite();
+}
+
+/// Where the corners of such a triangle stand among those of its face, ascending: the others have
+/// the gradient 0 there. Empty where they are not three.
+std::vector<std::size_t> cut_corners(const CellComplex& given, Index cell);
+
+/// The triangles of polygons as one intrinsic mesh: those at virtual vertices where these are the
+/// face, or those that it was cut into. A face that neither are has none. Edges of triangles that
+/// are nearly flat are lengthened (mollify()). The virtual vertex of face i has the number V + i.
 struct PolygonFans {
   std::vector<Index> first_cell;  ///< F + 1: the cells of face i are those from first_cell[i] on
   std::vector<Index> first;       ///< F + 1: the triangles of face i, in the order of its cells
@@ -29,7 +45,6 @@ struct PolygonFans {
   std::vector<char> is_not_manifold;  ///< of each part: it has such an edge
 
   Index face_count() const { return static_cast<Index>(first.size()) - 1; }
-  bool is_triangle(Index face) const { return first_cell[face + 1] - first_cell[face] == 1; }
   bool has_triangles(Index face) const { return first[face + 1] > first[face]; }
 };
 

@@ -65,7 +65,9 @@ class PolygonFlipper {
     find_parts(given_, fans_);
     std::vector<Vec3> places = given_.positions;
     for (Index f = 0; f < fans_.face_count(); ++f) {
-      places.push_back(given_.virtual_vertices[fans_.first_cell[f]]);
+      const Index first = fans_.first_cell[f];
+      places.push_back(is_cut(given_, first) ? given_.positions[given_.corners_of(first).front()]
+                                             : given_.virtual_vertices[first]);
     }
     if (cover_fans(places, fans_, threads_)) sides = non_delaunay_sides(mesh_, threads_);
     first_split_ = mesh_.face_count();
@@ -76,7 +78,7 @@ class PolygonFlipper {
     measure_widths(out);
     Components parts = fans_.parts;
     for (Index f = 0; f < fans_.face_count(); ++f) {
-      const bool is_vertex = fans_.has_triangles(f) && !fans_.is_triangle(f);
+      const bool is_vertex = fans_.has_triangles(f) && !is_cut(given_, fans_.first_cell[f]);
       parts.of.push_back(is_vertex ? part_of(f) : kNoIndex);
     }
     auto refined = refine_triangulation(mesh_, edits_, parts, out.mean_width, places,
@@ -105,7 +107,7 @@ class PolygonFlipper {
     out.virtual_of_cell.assign(static_cast<std::size_t>(given_.cell_count()), kNoIndex);
     std::vector<Index> number_of_virtual(static_cast<std::size_t>(fans_.face_count()), kNoIndex);
     for (Index f = 0; f < fans_.face_count(); ++f) {
-      if (!is_touched(f, touched) || fans_.is_triangle(f)) continue;
+      if (!is_touched(f, touched) || is_cut(given_, fans_.first_cell[f])) continue;
       number_of_virtual[f] = static_cast<Index>(cells.positions.size());
       std::fill(out.virtual_of_cell.begin() + fans_.first_cell[f],
                 out.virtual_of_cell.begin() + fans_.first_cell[f + 1], number_of_virtual[f]);

@@ -149,8 +149,8 @@ class NearPolygons {
     const Index given = domain_.find_cell(point.cell);
     const std::vector<Index> rows = domain_.rows_of_given(given);
     const bool is_corner = std::ranges::find(point.weights, 1.0) != point.weights.end();
-    if (mesh_.components.of[rows.front()] != component || is_corner || rows.size() == 3) return;
-    if (domain_.virtual_row(given) != kNoIndex) return;
+    if (mesh_.components.of[rows.front()] != component || is_corner) return;
+    if (domain_.virtual_row(given) != kNoIndex || is_cut(given_, given)) return;
     Vec3 place = Vec3::Zero();
     for (std::size_t k = 0; k < rows.size(); ++k) place += point.weights[k] * place_of(rows[k]);
     seeds_.push_back({number_of_virtual(given), (virtual_vertex(given) - place).norm()});
@@ -165,7 +165,18 @@ class NearPolygons {
       const std::array lengths = {(at_b - at_a).norm(), (at_c - at_b).norm(), (at_a - at_c).norm()};
       faces.add({a, b, c}, lengths);
     };
-    if (rows.size() == 3) return add(rows[0], rows[1], rows[2], at[0], at[1], at[2]);
+    if (is_cut(given_, given)) {
+      const Index number = given_.numbers[given];
+      for (Index cell = domain_.find_cell(number);
+           cell < given_.cell_count() && given_.numbers[cell] == number; ++cell) {
+        const auto three = cut_corners(given_, cell);
+        overlap_ |= three.empty();
+        if (three.empty()) continue;
+        const std::size_t a = three[0], b = three[1], c = three[2];
+        add(rows[a], rows[b], rows[c], at[a], at[b], at[c]);
+      }
+      return;
+    }
     const Vec3 apex = virtual_vertex(given);
     overlap_ |= !sees_all_sides(at, apex);
     for (std::size_t k = 0; k < at.size(); ++k) {

@@ -39,7 +39,9 @@ struct CellComplex {
   /// C, ascending: what sources call each cell; empty: 0 to C - 1. Cells with the same corners, in
   /// one order, may share a number, as the triangles of a polygon do.
   std::vector<Index> numbers;
-  std::vector<Vec3> virtual_vertices;  ///< C: those of polygons, model units; empty: others
+  /// C: of polygons, model units; not finite: a triangle that its face was cut into, of the three
+  /// corners whose gradients are not 0; empty: no polygons.
+  std::vector<Vec3> virtual_vertices;
   /// V, model units; empty where the vertices lie nowhere. Elimination orders are better with them.
   std::vector<Vec3> positions;
   /// No way is shorter than the straight line between `positions`: what is below it is raised.
@@ -78,8 +80,9 @@ Result<CellComplex> cells_of(const Graph& graph);
 
 /// A polygon mesh as a space of two dimensions: a face of k corners is the k triangles between its
 /// sides and a virtual vertex (Bunge, Herholz, Kazhdan, Botsch 2020), whose value is a mean of the
-/// corners': the harmonic one. Each triangle is a cell, with all corners of the face and its number
-/// in the mesh; a face of three corners is one. HeatMethod flips those that are far from Delaunay.
+/// corners': the harmonic one; or the k - 2 of triangulated(), where not all sides are seen from it
+/// or one of its triangles is nearly flat. Each is a cell, with all corners of the face and its
+/// number in the mesh. HeatMethod flips those that are far from Delaunay.
 /// Left out are faces without area, with fewer than three corners or with one twice. Errors
 /// (kBadInput, with the number): a corner out of range, a coordinate that is not finite, over 256
 /// corners in a face, no face that can be used. Cost: 2 k^2 numbers, k^3 steps for k corners.
@@ -154,10 +157,8 @@ struct GridFile {
 Result<GridFile> read_grid(const ModelInput& input, GridValues values = GridValues::kAuto);
 Result<GridFile> read_grid(const std::string& path, GridValues values = GridValues::kAuto);
 
-/// The extensions without their point: npy, png, vti, nrrd, nhdr.
+/// The extensions without their point: npy, png, vti, nrrd, nhdr; whether a format is one of them.
 std::vector<std::string> grid_formats();
-
-/// Whether the format is one of those.
 bool holds_grid(const ModelInput& input);
 bool holds_grid(const std::string& path);
 
@@ -264,7 +265,6 @@ Result<TetFile> read_tets(const std::string& path);
 
 /// The extensions without their point: mesh, meshb, msh, vtk, vtu, node, ele.
 std::vector<std::string> tet_formats();
-
 /// Whether read_tets() is the one to ask: the extension is one of those and, for `.msh`, `.vtk` and
 /// `.vtu`, which also hold other things, the file begins as one with elements does (Gmsh; an
 /// unstructured grid). Whether there are tets among these only reading tells. False for a file that

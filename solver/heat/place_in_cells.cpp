@@ -1,0 +1,193 @@
+// SPDX-License-Identifier: MIT
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "solver/geometry/polygon_fans.h"
+#include "solver/heat/cell_domain.h"
+
+namespace geotherm {
+namespace {
+
+Error bad_source(const std::string& message) { return {ErrorCode::kBadInput, message}; }
+
+/// Checks the sources of a CellComplex.
+Result<void> check_cell_sources(const CellDomain& domain, const SourceSet& sources) {
+  const CellComplex& cells = *domain.given;
+  if (auto valid = check_space_sources(sources, "vertices or points of " + cells.cells_name);
+      !valid) {
+    return valid;
+  }
+  for (const SurfacePoint& point : sources.points) {
+    if (point.vertex < 0 || point.vertex >= cells.vertices) {
+      return bad_source("source vertex " + std::to_string(point.vertex) +
+                        " is out of range (0 to " + std::to_string(cells.vertices - 1) + ")");
+    }
+    if (domain.row_of_vertex[point.vertex] == kNoIndex) {
+      return bad_source("source vertex " + std::to_string(point.vertex) + " is in no " +
+                        cells.cell_name);
+    }
+  }
+  for (const CellPoint& point : sources.cell_points) {
+    const Index cell = domain.find_cell(point.cell);
+    if (cell == kNoIndex) {
+      const Index last = cells.numbers.empty() ? cells.cell_count() - 1 : cells.numbers.back();
+      return bad_source("source " + cells.cell_name + " " + std::to_string(point.cell) +
+                        (point.cell >= 0 && point.cell <= last
+                             ? " was left out"
+                             : " is out of range (0 to " + std::to_string(last) + ")"));
+    }
+    auto valid = check_weights(point.weights, cells.corners_of(cell).size(),
+                               cells.cell_name + " " + std::to_string(point.cell));
+    if (!valid) return valid;
+  }
+  return refuse_offsets(sources);
+}
+
+using Triangle = std::array<std::size_t, 3>;
+
+/// Those that a face of four corners or more was cut into, by places of its corners.
+std::vector<Triangle> cut_triangles(const CellComplex& given, Index cell) {
+  std::vector<Triangle> out;
+  if (given.virtual_vertices.empty() || given.corners_of(cell).size() == 3) return out;
+  const Index number = given.numbers[cell];
+  for (; cell < given.cell_count() && given.numbers[cell] == number; ++cell) {
+    if (!is_cut(given, cell)) break;
+    const auto corners = cut_corners(given, cell);
+    if (!corners.empty()) out.push_back({corners[0], corners[1], corners[2]});
+  }
+  return out;
+}
+
+/// Weights of `places` that put a point into that one of the triangles between these that it lies
+/// in, or nearest to.
+std::vector<double> weights_in_triangles(std::span<const Triangle> triangles,
+                                         std::span<const Vec3> places, const Vec3& at) {
+  double best = -kUnreached;
+  Triangle found = triangles.front();
+  std::array<double, 3> shares{1, 0, 0};
+  for (const Triangle& triangle : triangles) {
+    const std::array<Vec3, 3> to = {places[triangle[0]] - at, places[triangle[1]] - at,
+                                    places[triangle[2]] - at};
+    const Vec3 twice = (to[1] - to[0]).cross(to[2] - to[0]);
+    std::array<double, 3> here{};
+    for (std::size_t i = 0; i < 3; ++i) {
+      here[i] = to[(i + 1) % 3].cross(to[(i + 2) % 3]).dot(twice) / twice.squaredNorm();
+    }
+    const double least = std::ranges::min(here);
+    if (!(least > best)) continue;
+    best = least;
+    found = triangle;
+    shares = here;
+  }
+  double sum = 0;
+  for (double& share : shares) sum += share = std::max(share, 0.0);
+  std::vector<double> out(places.size(), 0.0);
+  for (std::size_t i = 0; i < 3; ++i) out[found[i]] = shares[i] / sum;
+  return out;
+}
+
+/// Turns sources into anchors.
+class CellPlacer {
+ public:
+  explicit CellPlacer(const CellDomain& domain) : domain_(domain), mesh_(*domain.mesh) {}
+
+  void add_vertex(Index vertex) { anchors_.add_vertex(domain_.row_of_vertex[vertex]); }
+
+  void add_point(const CellPoint& point) {
+    const Index cell = domain_.find_cell(point.cell);
+    std::vector<Index> rows = domain_.rows_of_given(cell);
+    std::vector<Vec3> places = domain_.corner_places(cell);
+    std::vector<double> weights(point.weights.begin(), point.weights.end());
+    Vec3 at = Vec3::Zero();
+    for (std::size_t k = 0; k < rows.size(); ++k) {
+      if (weights[k] == 1) return add_vertex(domain_.vertex_of_row[rows[k]]);
+      at += weights[k] * places[k];
+    }
+    std::vector<Triangle> triangles;
+    bool is_cut = false;
+    if (const Index row = domain_.virtual_row(cell); row != kNoIndex) {
+      const std::size_t apex = places.size();
+      for (std::size_t k = 0; k < apex; ++k) triangles.push_back({k, (k + 1) % apex, apex});
+      places.emplace_back((domain_.place_of(row) - domain_.place_of(rows.front())) / domain_.unit);
+      rows.push_back(row);
+      weights = weights_in_triangles(triangles, places, at);
+    } else if (triangles = cut_triangles(*domain_.given, cell); !triangles.empty()) {
+      weights = weights_in_triangles(triangles, places, at);
+      is_cut = true;
+    }
+    for (std::size_t k = 0; k < rows.size(); ++k) {
+      // The straight line to a corner of another triangle may leave the face.
+      if (is_cut && weights[k] == 0) continue;
+      anchors_.add_corner(rows[k], (places[k] - at).norm(), weights[k]);
+    }
+  }
+
+  SourceAnchors finish() const { return anchors_.finish(mesh_.components); }
+
+ private:
+  const CellDomain& domain_;
+  const CellMesh& mesh_;
+  AnchorMap anchors_;
+};
+
+}  // namespace
+
+Index CellDomain::find_cell(Index number) const {
+  const std::vector<Index>& numbers = given->numbers;
+  if (numbers.empty()) return number >= 0 && number < given->cell_count() ? number : kNoIndex;
+  const auto at = std::ranges::lower_bound(numbers, number);
+  return at != numbers.end() && *at == number ? static_cast<Index>(at - numbers.begin()) : kNoIndex;
+}
+
+std::vector<Index> CellDomain::rows_of_given(Index cell) const {
+  const auto corners = given->corners_of(cell);
+  std::vector<Index> rows(corners.size());
+  std::ranges::transform(corners, rows.begin(), [this](Index v) { return row_of_vertex[v]; });
+  return rows;
+}
+
+Index CellDomain::virtual_row(Index cell) const {
+  const Index vertex = flipped ? flipped->virtual_of_cell[cell] : kNoIndex;
+  return vertex == kNoIndex ? kNoIndex : row_of_vertex[vertex];
+}
+
+std::vector<Vec3> CellDomain::corner_places(Index cell) const {
+  const auto corners = given->corners_of(cell);
+  std::vector<Vec3> out(corners.size(), Vec3::Zero());
+  if (!given->positions.empty() && given->lengths_are_straight) {
+    const Vec3& first = given->positions[corners.front()];
+    for (std::size_t k = 0; k < out.size(); ++k) {
+      out[k] = (given->positions[corners[k]] - first) / unit;
+    }
+    return out;
+  }
+  const int d = mesh->dimension;
+  Eigen::Matrix3d square = Eigen::Matrix3d::Zero();
+  const double* gradient = mesh->gradients_of(cell_of_given[cell]);
+  for (Vec3& place : out) {
+    std::copy_n(gradient, d, place.data());
+    square += place * place.transpose();
+    gradient += d;
+  }
+  const Eigen::Matrix3d inverse = inverse_along(square);
+  for (Vec3& place : out) place = inverse * place;
+  return out;
+}
+
+Result<SourceAnchors> CellDomain::place(const SourceSet& sources) const {
+  if (const auto valid = check_cell_sources(*this, sources); !valid) return valid.error();
+  CellPlacer placer(*this);
+  for (const SurfacePoint& point : sources.points) placer.add_vertex(point.vertex);
+  for (const CellPoint& point : sources.cell_points) placer.add_point(point);
+  SourceAnchors anchors = placer.finish();
+  anchors.cell_points = sources.cell_points;
+  return anchors;
+}
+
+}  // namespace geotherm
