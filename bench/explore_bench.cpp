@@ -66,7 +66,7 @@ class Hand {
   }
 
   /// As while something is dragged, or as when the picture rests.
-  Result<void> frame(bool fast = true) { return screen_->draw({}, fast); }
+  Result<void> frame(Detail detail = Detail::kFewFaces) { return screen_->draw({}, detail); }
 
   /// Until what is shown is what the command asks for.
   Result<void> follow(const Command& command) {
@@ -122,11 +122,11 @@ class Hand {
       if (i > 2) turned.push_back(watch.milliseconds());
     }
     Stopwatch watch;
-    if (auto done = frame(false); !done) return done;
+    if (auto done = frame(Detail::kFull); !done) return done;
     row.full_frame_ms = watch.lap();
     for (int i = 0; i < kFrames; ++i) {
       if (auto done = screen_->update(session_, kArea); !done) return done;
-      if (auto done = frame(false); !done) return done;
+      if (auto done = frame(Detail::kFull); !done) return done;
       rested.push_back(watch.lap());
     }
     row.turn_pictures = 1e3 / median(turned);
@@ -175,7 +175,7 @@ class Hand {
       const Stopwatch watch;
       if (auto done = session_.submit(command::Orbit{1, 0}); !done) return done;
       if (auto done = screen_->update(session_, kArea); !done) return done;
-      if (auto done = frame(false); !done) return done;
+      if (auto done = frame(Detail::kFull); !done) return done;
       quiet.push_back(watch.milliseconds());
     }
     row.usual_frame_ms = median(quiet);
@@ -189,7 +189,7 @@ class Hand {
         session_.update();
         if (auto done = session_.submit(command::Orbit{1, 0}); !done) return done;
         if (auto done = screen_->update(session_, kArea); !done) return done;
-        if (auto done = frame(false); !done) return done;
+        if (auto done = frame(Detail::kFull); !done) return done;
         most = std::max(most, watch.milliseconds());
       }
       longest.push_back(most);

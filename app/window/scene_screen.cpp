@@ -175,11 +175,12 @@ Result<void> SceneScreen::update(const Session& session, const PictureArea& area
   return {};
 }
 
-Result<void> SceneScreen::draw(const engine::PanelDraw& panels, bool fast) {
-  const bool quick = fast && device_.info().software;
-  renderer_.set_samples(quick ? 1 : samples_);
-  renderer_.set_coarse(quick && kept_);  // a model is first seen as it is
-  drew_scene_ = !(kept_ && kept_ == seen_ && (quick || !kept_fast_));
+Result<void> SceneScreen::draw(const engine::PanelDraw& panels, Detail detail) {
+  if (!device_.info().software) detail = Detail::kFull;
+  if (detail == Detail::kFewFaces && !kept_) detail = Detail::kOneSample;
+  renderer_.set_samples(detail == Detail::kFull ? samples_ : 1);
+  renderer_.set_coarse(detail == Detail::kFewFaces);
+  drew_scene_ = !(kept_ && kept_ == seen_ && kept_detail_ <= detail);
   const engine::SceneUse use = drew_scene_ ? engine::SceneUse::kKeep : engine::SceneUse::kAgain;
   engine::Target* target = window_target_.get();
   if (window_target_) {
@@ -192,7 +193,7 @@ Result<void> SceneScreen::draw(const engine::PanelDraw& panels, bool fast) {
   auto drawn = renderer_.render(*target, scene_, legend_.overlay, &panels, use);
   if (drawn && drew_scene_) {
     kept_ = seen_;
-    kept_fast_ = quick;
+    kept_detail_ = detail;
   }
   return drawn;
 }

@@ -29,6 +29,13 @@ struct PictureArea {
   bool operator==(const PictureArea&) const = default;
 };
 
+/// How well a frame is drawn, the best first. Devices that are no software draw all as the first.
+enum class Detail {
+  kFull,       ///< with the samples that the settings ask for
+  kOneSample,  ///< a pixel
+  kFewFaces    ///< the same, few faces for many; of a model that was seen before
+};
+
 /// Draws what a session shows, into a window and into pictures, with one renderer. Uploads what has
 /// changed and nothing else. Errors: kNoDevice (also: the device was lost), kOutOfMemory.
 class SceneScreen {
@@ -49,9 +56,8 @@ class SceneScreen {
   /// Brings data and camera up to date with the session, for a picture of this size. Cost: what has
   /// changed since the last call.
   Result<void> update(const Session& session, const PictureArea& area);
-  /// `fast`: where the device is software, one sample a pixel and few faces for many. A scene that
-  /// was drawn before, as well or better, is shown again.
-  Result<void> draw(const engine::PanelDraw& panels, bool fast);
+  /// A scene that was drawn before, as well or better, is shown again.
+  Result<void> draw(const engine::PanelDraw& panels, Detail detail);
   /// Whether the last draw() has drawn the scene and not only the panels over it.
   bool drew_scene() const { return drew_scene_; }
 
@@ -133,7 +139,8 @@ class SceneScreen {
     bool operator==(const Seen&) const = default;
   };
   std::optional<Seen> seen_, kept_;
-  bool kept_fast_ = false, drew_scene_ = false;
+  Detail kept_detail_ = Detail::kFull;
+  bool drew_scene_ = false;
   bool warm_ = false;  ///< warm_up() was called
 };
 

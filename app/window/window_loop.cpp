@@ -203,15 +203,23 @@ Result<void> WindowLoop::frame() {
   if (out.study) session_->study();
   session_->set_dragging(out.dragging);
   const bool moves = out.dragging || session_->state().rotating;
-  const bool fast =
-      moves || !screen_->has_model() || (out.animating && full_frame_ms_ > kSlowFrame);
-  if (!out.commands.empty() || out.animating || fast != fast_) clock_.something_happened();
-  fast_ = fast;
+  Detail detail = is_urgent() ? Detail::kOneSample : Detail::kFull;
+  if (moves || (out.animating && full_frame_ms_ > kSlowFrame)) detail = Detail::kFewFaces;
+  if (!out.commands.empty() || out.animating || detail != detail_) clock_.something_happened();
+  detail_ = detail;
   // The frame that was laid out shows what commands change at once, but for the panels.
   for (const Command& command : out.commands) {
     [[maybe_unused]] const auto done = session_->submit(command);  // failures are in the log
   }
-  return gives_way(out) ? Result<void>() : draw_frame(fast_);
+  return gives_way(out) ? Result<void>() : draw_frame(detail_);
+}
+
+/// Whether what is new should be seen soon, and work would have to share its cores with a frame
+/// of all samples: a model whose distances are to come, distances while it is lit and checked.
+bool WindowLoop::is_urgent() const {
+  if (!screen_->has_model()) return true;
+  const Explored& explored = session_->explored();
+  return session_->work().busy && (!explored.a || explored.version != drawn_version_);
 }
 
 /// Whether a frame would only take the cores from the work that the next picture waits for.
@@ -220,14 +228,14 @@ bool WindowLoop::gives_way(const ui::FrameOutput& out) const {
          Clock::now() - drawn_at_ < kGivesWay && screen_->device().software;
 }
 
-Result<void> WindowLoop::draw_frame(bool fast) {
+Result<void> WindowLoop::draw_frame(Detail detail) {
   if (auto updated = screen_->update(*session_, area()); !updated) return updated;
   clock_.begin_drawing();
   drawn_version_ = session_->explored().version;
   drawn_at_ = Clock::now();
   const Stopwatch watch;
-  auto drawn = screen_->draw(panel_draw(), fast);
-  if (!fast && screen_->drew_scene()) full_frame_ms_ = watch.milliseconds();
+  auto drawn = screen_->draw(panel_draw(), detail);
+  if (detail == Detail::kFull && screen_->drew_scene()) full_frame_ms_ = watch.milliseconds();
   if (drawn && session_->work().busy && !session_->explored().model && !screen_->is_warm()) {
     clock_.something_happened();  // over what that shows
     drawn = screen_->warm_up(session_->state().picture);

@@ -80,7 +80,8 @@ class WindowLoop {
   Result<void> begin_session();
   Result<void> open_screen();
   Result<void> frame();
-  Result<void> draw_frame(bool fast);
+  Result<void> draw_frame(Detail detail);
+  bool is_urgent() const;
   bool gives_way(const ui::FrameOutput& out) const;
   Result<void> after_failure(const Error& error);
   void sleep();
@@ -111,8 +112,8 @@ class WindowLoop {
   std::optional<std::chrono::steady_clock::time_point> last_loss_;
   std::uint64_t drawn_version_ = 0;  ///< of Explored, in the last frame
   std::chrono::steady_clock::time_point drawn_at_;
-  bool fast_ = false;         ///< the last frame was drawn with fewer samples
-  double full_frame_ms_ = 0;  ///< of the last frame that was not
+  Detail detail_ = Detail::kFull;  ///< of the last frame
+  double full_frame_ms_ = 0;       ///< of the last one with all samples
 };
 
 }  // namespace geotherm::app
