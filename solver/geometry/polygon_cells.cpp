@@ -14,6 +14,7 @@
 #include "geotherm/domains.h"
 #include "solver/core/text.h"
 #include "solver/geometry/cell_mesh.h"
+#include "solver/geometry/intrinsic_mesh.h"
 #include "solver/geometry/polygon_fans.h"
 #include "solver/mesh/io/raw_mesh.h"
 
@@ -23,31 +24,38 @@ namespace {
 /// A face of k corners has 2 k^2 numbers, and takes k^3 steps.
 constexpr std::size_t kMaxCorners = 256;
 
-/// Height of a triangle at the virtual vertex, in its side, at least, of a face that these
-/// triangles are not: the vertex may lie on the line of a side, and would have the value that the
-/// side is extrapolated to.
-constexpr double kLeastHeight = 0.1;
-
-/// The triangle between a side and the virtual vertex of its face.
+/// The triangle between a side and the virtual vertex of its face, or one that a face was cut into.
 struct FanTriangle {
   double area = 0;
-  /// Of the hat functions of the side's ends and of the virtual vertex, in the triangle's frame.
+  /// Of the hat functions of the side's ends and of the third corner, in the triangle's frame.
   Eigen::Vector2d from, to, apex;
 };
 
-/// `least_height`: in sides. Area 0: the side has no length.
-FanTriangle fan_triangle(const Vec3& from, const Vec3& to, const Vec3& apex, double least_height) {
-  FanTriangle out;
-  const double length = (to - from).norm();
-  if (!(length > 0)) return out;
-  const Vec3 side = (to - from) / length;
+/// `along`, `height`: of the third corner, from the first along the side and away from it.
+FanTriangle triangle_on_side(double side, double along, double height) {
+  return {side * height / 2,
+          {-1 / side, (along / side - 1) / height},
+          {1 / side, -along / (side * height)},
+          {0, 1 / height}};
+}
+
+std::array<double, 3> side_lengths(const Vec3& a, const Vec3& b, const Vec3& c) {
+  return {(b - a).norm(), (c - b).norm(), (a - c).norm()};
+}
+
+/// The sides of one that is nearly flat are lengthened, as mollify() does. In mean distances
+/// between two corners of the face.
+FanTriangle fan_triangle(const Vec3& from, const Vec3& to, const Vec3& apex) {
+  std::array<double, 3> lengths = side_lengths(from, to, apex);
+  if (is_flat_triangle(lengths)) {
+    const double by = kFlatTriangle * (1 + std::ranges::max(lengths));
+    for (double& length : lengths) length += by;
+    const FaceLayout laid = lay_out(lengths);
+    return triangle_on_side(laid.base, laid.x, laid.height);
+  }
+  const Vec3 side = (to - from) / lengths[0];
   const double along = side.dot(apex - from);
-  const double height = std::max((apex - from - along * side).norm(), least_height * length);
-  out.area = length * height / 2;
-  out.from = {-1 / length, (along / length - 1) / height};
-  out.to = {1 / length, -along / (length * height)};
-  out.apex = {0, 1 / height};
-  return out;
+  return triangle_on_side(lengths[0], along, (apex - from - along * side).norm());
 }
 
 /// The point with the least sum of the squared areas of its triangles with the sides.
@@ -74,10 +82,6 @@ struct PolygonElement {
   std::vector<double> areas;                ///< of each triangle; none: the face has no area
   std::vector<Eigen::Matrix2Xd> gradients;  ///< of each triangle: 2 x k
 };
-
-std::array<double, 3> side_lengths(const Vec3& a, const Vec3& b, const Vec3& c) {
-  return {(b - a).norm(), (c - b).norm(), (a - c).norm()};
-}
 
 /// Whether the triangles at the virtual vertex are the face, and none is nearly flat.
 bool is_fan(std::span<const Vec3> at, const Vec3& apex) {
@@ -113,23 +117,28 @@ bool flip_flat_triangle(const std::vector<Vec3>& at, std::vector<Face>& triangle
 }
 
 /// The triangles that triangulated() cuts a face into, by the places of their corners in it,
-/// ascending; those that are nearly flat are flipped. None where one has a side without length.
-std::vector<Face> cut_into_triangles(const std::vector<Vec3>& at, io::PolygonCutter& cutter) {
+/// ascending. The longest sides of those that are nearly flat are flipped where that can be.
+std::vector<Face> cut_into_triangles(const std::vector<Vec3>& positions,
+                                     std::span<const Index> face, const std::vector<Vec3>& at,
+                                     io::PolygonCutter& cutter) {
   std::vector<Face> out;
-  for (Index k = 2; k < std::ssize(at); ++k) out.push_back({0, k - 1, k});
-  (void)cutter.triangulate(at, out);
-  for (Face& face : out) std::ranges::sort(face);
-  const auto is_flat = [&at](const Face& face) {
-    return is_flat_triangle(side_lengths(at[face[0]], at[face[1]], at[face[2]]));
-  };
-  for (std::size_t flips = 0; flips <= out.size(); ++flips) {
-    const auto flat = std::ranges::find_if(out, is_flat);
-    if (flat == out.end() || !flip_flat_triangle(at, out, *flat)) break;
+  for (std::size_t k = 2; k < face.size(); ++k) out.push_back({face[0], face[k - 1], face[k]});
+  // Where the limit of its tests is reached, the fan stays, as in what is drawn.
+  (void)cutter.triangulate(positions, out);
+  for (Face& triangle : out) {
+    for (Index& corner : triangle) {
+      corner = static_cast<Index>(std::ranges::find(face, corner) - face.begin());
+    }
+    std::ranges::sort(triangle);
   }
-  const auto has_point = [&at](const Face& face) {
-    return at[face[0]] == at[face[1]] || at[face[1]] == at[face[2]] || at[face[2]] == at[face[0]];
+  const auto flip_one = [&] {
+    return std::ranges::any_of(out, [&](Face& triangle) {
+      return is_flat_triangle(side_lengths(at[triangle[0]], at[triangle[1]], at[triangle[2]])) &&
+             flip_flat_triangle(at, out, triangle);
+    });
   };
-  if (std::ranges::any_of(out, has_point)) out.clear();
+  for (std::size_t flips = 0; flips < out.size() && flip_one(); ++flips) {
+  }
   return out;
 }
 
@@ -144,55 +153,45 @@ PolygonElement polygon_element(const std::vector<Vec3>& positions, std::span<con
     for (std::size_t j = 0; j < i; ++j) out.width += (at[i] - at[j]).norm();
   }
   out.width /= static_cast<double>(k * (k - 1)) / 2;
-  Vec3 twice = Vec3::Zero();
   for (Vec3& corner : at) corner /= out.width;
-  for (std::size_t i = 0; i < k; ++i) twice += at[i].cross(at[(i + 1) % k]);
-  // Flatter than this, rounding decides where the plane lies.
-  constexpr double kFlat = 1e-12;
-  if (!(twice.norm() / 2 > kFlat)) return out;
-  const Vec3 apex = k == 3 ? at[2] : virtual_vertex(at);
-  const bool fan_is_face = k > 3 && is_fan(at, apex);
-  std::vector<Face> triangles;
-  if (k == 3) {
-    triangles = {{0, 1, 2}};
-  } else if (!fan_is_face) {
-    triangles = cut_into_triangles(at, cutter);
-  }
   const auto count = static_cast<Eigen::Index>(k);
   const auto put = [&out](const FanTriangle& t, const Eigen::Matrix2Xd& gradient) {
     out.gradients.emplace_back(gradient / out.width);
     out.areas.push_back(t.area * out.width * out.width);
   };
-  for (const Face& triangle : triangles) {
-    const FanTriangle t =
-        fan_triangle(at[triangle[0]], at[triangle[1]], at[triangle[2]], kFlatTriangle);
-    Eigen::Matrix2Xd gradient = Eigen::Matrix2Xd::Zero(2, count);
-    gradient.col(triangle[0]) = t.from;
-    gradient.col(triangle[1]) = t.to;
-    gradient.col(triangle[2]) = t.apex;
-    if (t.area > 0) put(t, gradient);
+  const Vec3 apex = k == 3 ? at[2] : virtual_vertex(at);
+  if (k == 3 || !is_fan(at, apex)) {
+    const std::vector<Face> triangles = cut_into_triangles(positions, face, at, cutter);
+    double area = 0;
+    for (const auto& [a, b, c] : triangles) area += (at[b] - at[a]).cross(at[c] - at[a]).norm() / 2;
+    // Flatter than this, rounding decides where the plane lies.
+    constexpr double kFlat = 1e-12;
+    if (!(area > kFlat) || !std::isfinite(area)) return out;
+    for (const auto& [a, b, c] : triangles) {
+      const FanTriangle t = fan_triangle(at[a], at[b], at[c]);
+      Eigen::Matrix2Xd gradient = Eigen::Matrix2Xd::Zero(2, count);
+      gradient.col(a) = t.from;
+      gradient.col(b) = t.to;
+      gradient.col(c) = t.apex;
+      put(t, gradient);
+    }
+    return out;
   }
-  if (!triangles.empty()) return out;
-
   out.apex = positions[face[0]] + out.width * apex;
-  const double least = fan_is_face ? 0 : kLeastHeight;
   std::vector<FanTriangle> fan;
   Eigen::VectorXd pull = Eigen::VectorXd::Zero(count);
   for (std::size_t i = 0; i < k; ++i) {
     const auto next = static_cast<Eigen::Index>((i + 1) % k);
-    const FanTriangle& t = fan.emplace_back(fan_triangle(at[i], at[next], apex, least));
-    if (!(t.area > 0)) continue;
+    const FanTriangle& t = fan.emplace_back(fan_triangle(at[i], at[next], apex));
     pull[static_cast<Eigen::Index>(i)] -= t.area * t.apex.dot(t.from);
     pull[next] -= t.area * t.apex.dot(t.to);
   }
   const Eigen::VectorXd weights = pull / pull.sum();
   for (std::size_t i = 0; i < k; ++i) {
-    const FanTriangle& t = fan[i];
-    if (!(t.area > 0)) continue;
-    Eigen::Matrix2Xd gradient = t.apex * weights.transpose();
-    gradient.col(static_cast<Eigen::Index>(i)) += t.from;
-    gradient.col(static_cast<Eigen::Index>((i + 1) % k)) += t.to;
-    put(t, gradient);
+    Eigen::Matrix2Xd gradient = fan[i].apex * weights.transpose();
+    gradient.col(static_cast<Eigen::Index>(i)) += fan[i].from;
+    gradient.col(static_cast<Eigen::Index>((i + 1) % k)) += fan[i].to;
+    put(fan[i], gradient);
   }
   return out;
 }

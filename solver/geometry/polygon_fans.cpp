@@ -74,7 +74,7 @@ class FanBuilder {
       const Index begin = out_.first[f], count = out_.first[f + 1] - begin;
       if (is_cut(given_, out_.first_cell[f])) {
         for (Side side = 3 * begin; side < 3 * (begin + count); ++side) {
-          const Side twin = side_of_face(f, second_of(side), first_of(side));
+          const Side twin = side_of_cut(f, second_of(side), first_of(side));
           if (twin != kNoSide) join_sides(mesh_, side, twin);
         }
         continue;
@@ -91,9 +91,14 @@ class FanBuilder {
       const auto corners = given_.corners_of(out_.first_cell[f]);
       for (std::size_t i = 0; i < corners.size(); ++i) {
         const Index from = corners[i], to = corners[(i + 1) % corners.size()];
-        put(std::min(from, to),
-            OuterSide{std::max(from, to), side_of_face(static_cast<Index>(f), from, to),
-                      from < to});
+        const auto face = static_cast<Index>(f);
+        Side side = kNoSide;
+        if (is_cut(given_, out_.first_cell[face])) {
+          side = side_of_cut(face, from, to);
+        } else if (out_.has_triangles(face)) {
+          side = 3 * (out_.first[face] + static_cast<Index>(i));
+        }
+        put(std::min(from, to), OuterSide{std::max(from, to), side, from < to});
       }
     };
     std::vector<std::uint32_t> start;
@@ -125,8 +130,8 @@ class FanBuilder {
     return mesh_.faces[face_of(side)][next_corner(corner_of(side))];
   }
 
-  /// The side of the triangles of a face that runs so; kNoSide: there is none.
-  Side side_of_face(Index f, Index from, Index to) const {
+  /// The side of the triangles of a face that was cut which runs so; kNoSide: there is none.
+  Side side_of_cut(Index f, Index from, Index to) const {
     for (Side side = 3 * out_.first[f]; side < 3 * out_.first[f + 1]; ++side) {
       if (first_of(side) == from && second_of(side) == to) return side;
     }

@@ -21,9 +21,9 @@ bool sees_all_sides(std::span<const Vec3> corners, const Vec3& virtual_vertex);
 constexpr double kFlatTriangle = 1e-5;
 bool is_flat_triangle(const std::array<double, 3>& lengths);
 
-/// Whether a cell of a polygon is one of the triangles that its face was cut into.
+/// Whether a cell of a polygon is one of the triangles that its face was cut into, or a triangle.
 inline bool is_cut(const CellComplex& given, Index cell) {
-  return !given.virtual_vertices[cell].allFinite();
+  return given.corners_of(cell).size() == 3 || !given.virtual_vertices[cell].allFinite();
 }
 
 /// Where the corners of such a triangle stand among those of its face, ascending: the others have
@@ -48,7 +48,8 @@ struct PolygonFans {
   bool has_triangles(Index face) const { return first[face + 1] > first[face]; }
 };
 
-/// Precondition: polygons with virtual vertices. Lengths are in units of `unit`. Cost: O(corners).
+/// Precondition: polygons with virtual vertices. Lengths are in units of `unit`. Cost: O(corners),
+/// squared of each face that was cut.
 PolygonFans build_fans(const CellComplex& given, double unit, int threads);
 
 /// The parts of the vertices, and which of these need a cover. Cost: O(corners).

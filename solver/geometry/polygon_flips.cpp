@@ -23,17 +23,22 @@ double mean_side(const std::array<double, 3>& l) { return (l[0] + l[1] + l[2]) /
 /// 0 the elimination of the virtual vertices does better. Chosen on the meshes of docs/domains.md.
 constexpr double kFlipped = -0.6;
 
-bool is_bad(const IntrinsicMesh& mesh, Side side) {
+/// `from_virtual`: the vertices from there on are virtual. Between triangles without one, as on
+/// triangle meshes, all are flipped.
+bool is_bad(const IntrinsicMesh& mesh, Index from_virtual, Side side) {
   const Side twin = mesh.twin[side];
-  return opposite_cotangent(mesh.lengths[face_of(side)], corner_of(side)) +
-             opposite_cotangent(mesh.lengths[face_of(twin)], corner_of(twin)) <
-         kFlipped;
+  const auto has_virtual = [&](Side at) {
+    return std::ranges::max(mesh.faces[face_of(at)]) >= from_virtual;
+  };
+  const double sum = opposite_cotangent(mesh.lengths[face_of(side)], corner_of(side)) +
+                     opposite_cotangent(mesh.lengths[face_of(twin)], corner_of(twin));
+  return sum < (has_virtual(side) || has_virtual(twin) ? kFlipped : 0);
 }
 
 /// Triangles that flips join form a region, and regions with a bad edge are flipped: which ones
 /// those are does not depend on the order of the flips. `sides`: non_delaunay_sides().
-Result<std::vector<Edit>> flip_bad_regions(IntrinsicMesh& mesh, std::vector<Side> sides,
-                                           const Progress& progress) {
+Result<std::vector<Edit>> flip_bad_regions(IntrinsicMesh& mesh, Index from_virtual,
+                                           std::vector<Side> sides, const Progress& progress) {
   IntrinsicMesh all = mesh;
   const auto flips = flip_to_delaunay(all, sides, progress);
   if (!flips) return flips.error();
@@ -41,7 +46,7 @@ Result<std::vector<Edit>> flip_bad_regions(IntrinsicMesh& mesh, std::vector<Side
   for (const Edit& flip : *flips) regions.join(flip.f, flip.g);
   std::vector<char> is_bad_region(mesh.faces.size(), 0);
   for (const Side side : sides) {
-    if (is_bad(mesh, side)) is_bad_region[regions.root(face_of(side))] = 1;
+    if (is_bad(mesh, from_virtual, side)) is_bad_region[regions.root(face_of(side))] = 1;
   }
   const auto left_out =
       std::erase_if(sides, [&](Side side) { return !is_bad_region[regions.root(face_of(side))]; });
@@ -60,7 +65,7 @@ class PolygonFlipper {
   /// Flips and refines; false where nothing has to be flipped.
   Result<bool> edit(const Progress& progress, FlippedPolygons& out) {
     std::vector<Side> sides = non_delaunay_sides(mesh_, threads_);
-    const auto bad = [this](Side side) { return is_bad(mesh_, side); };
+    const auto bad = [this](Side side) { return is_bad(mesh_, given_.vertices, side); };
     if (std::ranges::none_of(sides, bad)) return false;
     find_parts(given_, fans_);
     std::vector<Vec3> places = given_.positions;
@@ -71,7 +76,7 @@ class PolygonFlipper {
     }
     if (cover_fans(places, fans_, threads_)) sides = non_delaunay_sides(mesh_, threads_);
     first_split_ = mesh_.face_count();
-    auto flips = flip_bad_regions(mesh_, std::move(sides), progress);
+    auto flips = flip_bad_regions(mesh_, given_.vertices, std::move(sides), progress);
     if (!flips) return flips.error();
     edits_ = std::move(*flips);
     out.parts = fans_.parts;

@@ -64,13 +64,17 @@ std::vector<Triangle> cut_triangles(const CellComplex& given, Index cell) {
   return out;
 }
 
-/// Weights of `places` that put a point into that one of the triangles between these that it lies
-/// in, or nearest to.
-std::vector<double> weights_in_triangles(std::span<const Triangle> triangles,
-                                         std::span<const Vec3> places, const Vec3& at) {
+/// A point in a triangle between places: shares of its corners.
+struct PointInTriangle {
+  Triangle triangle{};
+  std::array<double, 3> shares{};
+};
+
+/// Where a point lies that is in one of these triangles, or nearly so.
+PointInTriangle find_triangle(std::span<const Triangle> triangles, std::span<const Vec3> places,
+                              const Vec3& at) {
   double best = -kUnreached;
-  Triangle found = triangles.front();
-  std::array<double, 3> shares{1, 0, 0};
+  PointInTriangle out{triangles.front(), {1, 0, 0}};
   for (const Triangle& triangle : triangles) {
     const std::array<Vec3, 3> to = {places[triangle[0]] - at, places[triangle[1]] - at,
                                     places[triangle[2]] - at};
@@ -82,15 +86,74 @@ std::vector<double> weights_in_triangles(std::span<const Triangle> triangles,
     const double least = std::ranges::min(here);
     if (!(least > best)) continue;
     best = least;
-    found = triangle;
-    shares = here;
+    out = {triangle, here};
   }
   double sum = 0;
-  for (double& share : shares) sum += share = std::max(share, 0.0);
-  std::vector<double> out(places.size(), 0.0);
-  for (std::size_t i = 0; i < 3; ++i) out[found[i]] = shares[i] / sum;
+  for (double& share : out.shares) sum += share = std::max(share, 0.0);
+  for (double& share : out.shares) share /= sum;
   return out;
 }
+
+/// Which corners of a face that was cut a point in it sees, and how far away they are, along
+/// straight lines over its triangles, laid out one beside the other.
+class CornersInSight {
+ public:
+  CornersInSight(std::span<const Triangle> triangles, std::span<const Vec3> places,
+                 const PointInTriangle& from)
+      : triangles_(triangles), places_(places), distances_(places.size(), kUnreached) {
+    const Triangle& t = from.triangle;
+    const FaceLayout laid = layout(t[0], t[1], t[2]);
+    std::array<Eigen::Vector2d, 3> at = {Eigen::Vector2d(0, 0), Eigen::Vector2d(laid.base, 0),
+                                         Eigen::Vector2d(laid.x, laid.height)};
+    const Eigen::Vector2d source =
+        from.shares[0] * at[0] + from.shares[1] * at[1] + from.shares[2] * at[2];
+    for (Eigen::Vector2d& corner : at) corner -= source;
+    for (std::size_t k = 0; k < 3; ++k) distances_[t[k]] = at[k].norm();
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::size_t next = (k + 1) % 3;
+      look_beyond(t[k], at[k], t[next], at[next], at[k], at[next]);
+    }
+  }
+
+  /// Of each corner; infinite: hidden.
+  std::span<const double> distances() const { return distances_; }
+
+ private:
+  FaceLayout layout(std::size_t a, std::size_t b, std::size_t c) const {
+    return lay_out({(places_[b] - places_[a]).norm(), (places_[c] - places_[b]).norm(),
+                    (places_[a] - places_[c]).norm()});
+  }
+
+  static double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
+    return a[0] * b[1] - a[1] * b[0];
+  }
+
+  /// From the point at (0, 0), between the lines to `right` and `left`, over the side from corner a
+  /// to b, which runs counterclockwise around it.
+  void look_beyond(std::size_t a, const Eigen::Vector2d& at_a, std::size_t b,
+                   const Eigen::Vector2d& at_b, const Eigen::Vector2d& right,
+                   const Eigen::Vector2d& left) {
+    for (const Triangle& t : triangles_) {
+      for (std::size_t k = 0; k < 3; ++k) {
+        if (t[k] != b || t[(k + 1) % 3] != a) continue;
+        const std::size_t c = t[(k + 2) % 3];
+        const FaceLayout laid = layout(b, a, c);
+        const Eigen::Vector2d side = (at_a - at_b).normalized();
+        const Eigen::Vector2d at_c =
+            at_b + laid.x * side + laid.height * Eigen::Vector2d(-side[1], side[0]);
+        const bool beside_right = cross(right, at_c) < 0, beside_left = cross(at_c, left) < 0;
+        if (!beside_right && !beside_left) distances_[c] = at_c.norm();
+        if (!beside_right) look_beyond(a, at_a, c, at_c, right, beside_left ? left : at_c);
+        if (!beside_left) look_beyond(c, at_c, b, at_b, beside_right ? right : at_c, left);
+        return;
+      }
+    }
+  }
+
+  std::span<const Triangle> triangles_;
+  std::span<const Vec3> places_;
+  std::vector<double> distances_;
+};
 
 /// Turns sources into anchors.
 class CellPlacer {
@@ -109,21 +172,19 @@ class CellPlacer {
       if (weights[k] == 1) return add_vertex(domain_.vertex_of_row[rows[k]]);
       at += weights[k] * places[k];
     }
-    std::vector<Triangle> triangles;
-    bool is_cut = false;
     if (const Index row = domain_.virtual_row(cell); row != kNoIndex) {
       const std::size_t apex = places.size();
+      std::vector<Triangle> triangles;
       for (std::size_t k = 0; k < apex; ++k) triangles.push_back({k, (k + 1) % apex, apex});
       places.emplace_back((domain_.place_of(row) - domain_.place_of(rows.front())) / domain_.unit);
       rows.push_back(row);
-      weights = weights_in_triangles(triangles, places, at);
-    } else if (triangles = cut_triangles(*domain_.given, cell); !triangles.empty()) {
-      weights = weights_in_triangles(triangles, places, at);
-      is_cut = true;
+      weights.assign(rows.size(), 0.0);
+      const PointInTriangle point_there = find_triangle(triangles, places, at);
+      for (std::size_t k = 0; k < 3; ++k) weights[point_there.triangle[k]] = point_there.shares[k];
+    } else if (const auto triangles = cut_triangles(*domain_.given, cell); !triangles.empty()) {
+      return add_in_cut_face(rows, places, triangles, find_triangle(triangles, places, at));
     }
     for (std::size_t k = 0; k < rows.size(); ++k) {
-      // The straight line to a corner of another triangle may leave the face.
-      if (is_cut && weights[k] == 0) continue;
       anchors_.add_corner(rows[k], (places[k] - at).norm(), weights[k]);
     }
   }
@@ -131,6 +192,20 @@ class CellPlacer {
   SourceAnchors finish() const { return anchors_.finish(mesh_.components); }
 
  private:
+  void add_in_cut_face(std::span<const Index> rows, std::span<const Vec3> places,
+                       std::span<const Triangle> triangles, const PointInTriangle& from) {
+    const CornersInSight seen(triangles, places, from);
+    std::vector<double> weights(rows.size(), 0.0);
+    for (std::size_t k = 0; k < 3; ++k) weights[from.triangle[k]] = from.shares[k];
+    for (std::size_t k = 0; k < rows.size(); ++k) {
+      if (weights[k] == 1) return add_vertex(domain_.vertex_of_row[rows[k]]);
+    }
+    for (std::size_t k = 0; k < rows.size(); ++k) {
+      const double distance = seen.distances()[k];
+      if (distance < kUnreached) anchors_.add_corner(rows[k], distance, weights[k]);
+    }
+  }
+
   const CellDomain& domain_;
   const CellMesh& mesh_;
   AnchorMap anchors_;
