@@ -157,8 +157,9 @@ struct GridFile {
 Result<GridFile> read_grid(const ModelInput& input, GridValues values = GridValues::kAuto);
 Result<GridFile> read_grid(const std::string& path, GridValues values = GridValues::kAuto);
 
-/// The extensions without their point: npy, png, vti, nrrd, nhdr; whether a format is one of them.
+/// The extensions without their point: npy, png, vti, nrrd, nhdr.
 std::vector<std::string> grid_formats();
+/// Whether the format is one of those.
 bool holds_grid(const ModelInput& input);
 bool holds_grid(const std::string& path);
 
@@ -390,7 +391,6 @@ Result<PointFile> read_points(const std::string& path);
 
 /// The names of the formats: ply, xyz, pts, pcd.
 std::vector<std::string> point_formats();
-
 /// Whether the file holds points without faces: by its extension, of a `.ply` by its header. A
 /// `.ply` whose header cannot be read is none. Errors (kBadFile): a `.ply` that cannot be opened.
 /// Cost: the header.
