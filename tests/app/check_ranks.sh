@@ -96,7 +96,7 @@ refused 2 'native: needs about' "$program" sample bunny -n 3 --memory-limit 1
 # A signal to mpirun ends all and leaves nothing: it asks ranks to end after so many seconds, and kills them after
 # as many more.
 for signal in TERM INT; do
-  OMPI_MCA_odls_base_sigkill_timeout=2 mpirun --oversubscribe -q -n 2 "$program" solve many.ply -s random:9000 --each \
+  OMPI_MCA_odls_base_sigkill_timeout=5 mpirun --oversubscribe -q -n 2 "$program" solve many.ply -s random:9000 --each \
     --no-check --threads 1 -o rows.npy >/dev/null 2>&1 &
   launcher=$!
   for _ in $(seq 300); do [ -z "$(find . -name 'rows.npy.*')" ] || break; sleep 0.1; done
