@@ -10,6 +10,7 @@
 
 #include "solver/geometry/polygon_fans.h"
 #include "solver/heat/cell_domain.h"
+#include "solver/method/marching_method.h"
 
 namespace geotherm {
 namespace {
