@@ -13,6 +13,7 @@
 #include "solver/core/stopwatch.h"
 #include "solver/core/text.h"
 #include "solver/heat/cell_field.h"
+#include "solver/method/marching_method.h"
 
 namespace geotherm {
 namespace {
