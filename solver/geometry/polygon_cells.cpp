@@ -39,10 +39,6 @@ FanTriangle triangle_on_side(double side, double along, double height) {
           {0, 1 / height}};
 }
 
-std::array<double, 3> side_lengths(const Vec3& a, const Vec3& b, const Vec3& c) {
-  return {(b - a).norm(), (c - b).norm(), (a - c).norm()};
-}
-
 /// The sides of one that is nearly flat are lengthened, as mollify() does. In mean distances
 /// between two corners of the face.
 FanTriangle fan_triangle(const Vec3& from, const Vec3& to, const Vec3& apex) {

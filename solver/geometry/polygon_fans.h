@@ -16,6 +16,11 @@ namespace geotherm {
 /// turned to the side that their sum is.
 bool sees_all_sides(std::span<const Vec3> corners, const Vec3& virtual_vertex);
 
+/// Of the triangle a, b, c: from a to b, from b to c, from c to a.
+inline std::array<double, 3> side_lengths(const Vec3& a, const Vec3& b, const Vec3& c) {
+  return {(b - a).norm(), (c - b).norm(), (a - c).norm()};
+}
+
 /// The longest side of a triangle is shorter than the two others by this share of it at least, or
 /// the rounding of lengths would decide its angles.
 constexpr double kFlatTriangle = 1e-5;

@@ -87,8 +87,8 @@ class NearPolygons {
   }
 
   std::span<const NearDistance> seeds() const { return seeds_; }
-  /// Whether some face that was asked for does not see all its sides from its virtual vertex, or
-  /// has one without a length: its triangles are not the face then.
+  /// Whether the triangles of some face that was asked for are not the face: it does not see all
+  /// its sides from its virtual vertex, or was not cut into triangles either.
   bool overlap() const { return overlap_; }
 
   NearFaces within(double reach) {
@@ -162,8 +162,7 @@ class NearPolygons {
                            [this](Index row) { return place_of(row); });
     const auto add = [&faces](std::int64_t a, std::int64_t b, std::int64_t c, const Vec3& at_a,
                               const Vec3& at_b, const Vec3& at_c) {
-      const std::array lengths = {(at_b - at_a).norm(), (at_c - at_b).norm(), (at_a - at_c).norm()};
-      faces.add({a, b, c}, lengths);
+      faces.add({a, b, c}, side_lengths(at_a, at_b, at_c));
     };
     if (is_cut(given_, given)) {
       const Index number = given_.numbers[given];

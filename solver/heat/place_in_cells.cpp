@@ -117,12 +117,11 @@ class CornersInSight {
   }
 
   /// Of each corner; infinite: hidden.
-  std::span<const double> distances() const { return distances_; }
+  const std::vector<double>& distances() const { return distances_; }
 
  private:
   FaceLayout layout(std::size_t a, std::size_t b, std::size_t c) const {
-    return lay_out({(places_[b] - places_[a]).norm(), (places_[c] - places_[b]).norm(),
-                    (places_[a] - places_[c]).norm()});
+    return lay_out(side_lengths(places_[a], places_[b], places_[c]));
   }
 
   static double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
@@ -173,40 +172,33 @@ class CellPlacer {
       if (weights[k] == 1) return add_vertex(domain_.vertex_of_row[rows[k]]);
       at += weights[k] * places[k];
     }
+    std::vector<Triangle> triangles = cut_triangles(*domain_.given, cell);
+    const bool was_cut = !triangles.empty();
     if (const Index row = domain_.virtual_row(cell); row != kNoIndex) {
       const std::size_t apex = places.size();
-      std::vector<Triangle> triangles;
       for (std::size_t k = 0; k < apex; ++k) triangles.push_back({k, (k + 1) % apex, apex});
       places.emplace_back((domain_.place_of(row) - domain_.place_of(rows.front())) / domain_.unit);
       rows.push_back(row);
+    }
+    std::vector<double> distances;
+    for (const Vec3& place : places) distances.push_back((place - at).norm());
+    if (!triangles.empty()) {
+      const PointInTriangle there = find_triangle(triangles, places, at);
       weights.assign(rows.size(), 0.0);
-      const PointInTriangle point_there = find_triangle(triangles, places, at);
-      for (std::size_t k = 0; k < 3; ++k) weights[point_there.triangle[k]] = point_there.shares[k];
-    } else if (const auto triangles = cut_triangles(*domain_.given, cell); !triangles.empty()) {
-      return add_in_cut_face(rows, places, triangles, find_triangle(triangles, places, at));
+      for (std::size_t k = 0; k < 3; ++k) weights[there.triangle[k]] = there.shares[k];
+      if (was_cut) distances = CornersInSight(triangles, places, there).distances();
     }
     for (std::size_t k = 0; k < rows.size(); ++k) {
-      anchors_.add_corner(rows[k], (places[k] - at).norm(), weights[k]);
+      if (was_cut && weights[k] == 1) return add_vertex(domain_.vertex_of_row[rows[k]]);
+    }
+    for (std::size_t k = 0; k < rows.size(); ++k) {
+      if (distances[k] < kUnreached) anchors_.add_corner(rows[k], distances[k], weights[k]);
     }
   }
 
   SourceAnchors finish() const { return anchors_.finish(mesh_.components); }
 
  private:
-  void add_in_cut_face(std::span<const Index> rows, std::span<const Vec3> places,
-                       std::span<const Triangle> triangles, const PointInTriangle& from) {
-    const CornersInSight seen(triangles, places, from);
-    std::vector<double> weights(rows.size(), 0.0);
-    for (std::size_t k = 0; k < 3; ++k) weights[from.triangle[k]] = from.shares[k];
-    for (std::size_t k = 0; k < rows.size(); ++k) {
-      if (weights[k] == 1) return add_vertex(domain_.vertex_of_row[rows[k]]);
-    }
-    for (std::size_t k = 0; k < rows.size(); ++k) {
-      const double distance = seen.distances()[k];
-      if (distance < kUnreached) anchors_.add_corner(rows[k], distance, weights[k]);
-    }
-  }
-
   const CellDomain& domain_;
   const CellMesh& mesh_;
   AnchorMap anchors_;
