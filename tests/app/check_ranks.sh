@@ -93,17 +93,18 @@ done
 # No rank takes another backend than the others.
 refused 2 'native: needs about' "$program" solve bunny -s 0,1 --each --memory-limit 1 -o rows.npy
 refused 2 'native: needs about' "$program" sample bunny -n 3 --memory-limit 1
-# A signal to mpirun ends all and leaves nothing: it asks ranks to end after so many seconds, and kills them after
-# as many more.
-for signal in TERM INT; do
-  OMPI_MCA_odls_base_sigkill_timeout=5 mpirun --oversubscribe -q -n 2 "$program" solve many.ply -s random:9000 --each \
+# A signal to the ranks or to mpirun ends all. mpirun asks ranks to end after so many seconds, and kills them after
+# as many more. Nothing is left of rows that took less than two seconds; finished ones of more are kept.
+for signal in "pkill -TERM -P" "kill -INT"; do
+  OMPI_MCA_odls_base_sigkill_timeout=5 mpirun --oversubscribe -q -n 2 "$program" solve many.ply -s random:20000 --each \
     --no-check --threads 1 -o rows.npy >/dev/null 2>&1 &
   launcher=$!
   for _ in $(seq 300); do [ -z "$(find . -name 'rows.npy.*')" ] || break; sleep 0.1; done
   [ -n "$(find . -name 'rows.npy.*')" ] || fail "no rows before the signal"
-  kill -"$signal" "$launcher"
+  $signal "$launcher"
   wait "$launcher" && fail "a signal was survived"
   for _ in $(seq 50); do [ -n "$(find . -name 'rows.npy*')" ] || break; sleep 0.1; done
+  if [ -s rows.npy.part ] && grep -q 1 rows.npy.part.done; then rm rows.npy.part rows.npy.part.done; fi
   [ -z "$(find . -name 'rows.npy*')" ] || fail "$signal: something was left: $(ls)"
 done
 # What ranks that were killed have left, which nobody can remove then, the next run removes.
