@@ -96,7 +96,7 @@ refused 2 'native: needs about' "$program" sample bunny -n 3 --memory-limit 1
 # A signal to the ranks or to mpirun ends all. mpirun asks ranks to end after so many seconds, and kills them after
 # as many more. Nothing is left of rows that took less than two seconds; finished ones of more are kept.
 for signal in "pkill -TERM -P" "kill -INT"; do
-  OMPI_MCA_odls_base_sigkill_timeout=5 mpirun --oversubscribe -q -n 2 "$program" solve many.ply -s random:20000 --each \
+  OMPI_MCA_odls_base_sigkill_timeout=3 mpirun --oversubscribe -q -n 2 "$program" solve many.ply -s random:20000 --each \
     --no-check --threads 1 -o rows.npy >/dev/null 2>&1 &
   launcher=$!
   for _ in $(seq 300); do [ -z "$(find . -name 'rows.npy.*')" ] || break; sleep 0.1; done
