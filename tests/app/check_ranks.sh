@@ -104,7 +104,7 @@ for signal in "pkill -TERM -P" "kill -INT"; do
   $signal "$launcher"
   wait "$launcher" && fail "a signal was survived"
   for _ in $(seq 50); do [ -n "$(find . -name 'rows.npy*')" ] || break; sleep 0.1; done
-  if [ -s rows.npy.part ] && grep -q 1 rows.npy.part.done; then rm rows.npy.part rows.npy.part.done; fi
+  if [ -s rows.npy.part ] && tail -n 1 rows.npy.part.done | grep -q 1; then rm rows.npy.part rows.npy.part.done; fi
   [ -z "$(find . -name 'rows.npy*')" ] || fail "$signal: something was left: $(ls)"
 done
 # What ranks that were killed have left, which nobody can remove then, the next run removes.
