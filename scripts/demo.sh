@@ -19,7 +19,7 @@ if [ -e "$model" ]; then
   source=random:1  # a vertex that is on the surface, whatever the file holds
 fi
 
-# In a folder of its own: the preset release builds everything.
+# In a folder of its own, compiled to be there soon: the preset release builds everything at full speed.
 output=$root/build/demo
 program=$output/geotherm
 if [ -n "${DISPLAY:-}${WAYLAND_DISPLAY:-}" ]; then
@@ -50,7 +50,7 @@ Try next:
   build/demo/geotherm generate gargoyle --faces 1000000 -o big.ply
   build/demo/geotherm solve --help
 
-All of it, the viewer, the backend cholmod, benchmark and tests among them:
+All of it at full speed, the viewer, the backend cholmod, benchmark and tests among them:
   scripts/setup.sh && cmake --preset release && cmake --build --preset release
   build/release/geotherm $model                               the viewer, where there is a display
 TEXT
