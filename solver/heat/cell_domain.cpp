@@ -76,6 +76,14 @@ void follow_thickness(CellDomain& domain) {
   }
 }
 
+/// The first cell of each face at each vertex.
+CellTable faces_at_vertices(const CellComplex& given, int threads) {
+  return CellTable(given.vertices, given.cell_count(), threads, [&given](Index c) {
+    const bool is_first = c == 0 || given.numbers[c] != given.numbers[c - 1];
+    return is_first ? given.corners_of(c) : std::span<const Index>();
+  });
+}
+
 /// Polygons that were flipped have the mean width from before they were refined, of which t is
 /// made.
 void keep_width_of_flipped(CellDomain& domain) {
@@ -117,6 +125,7 @@ class CellInput final : public Domain::Input {
     auto flipped = flip_polygons(*cells_, out->unit, threads, progress);
     if (!flipped) return flipped.error();
     out->flipped = *std::move(flipped);
+    if (out->flipped) out->faces_at = faces_at_vertices(*cells_, threads);
     const CellComplex& cells = out->cells();
     const CellPattern pattern = pattern_of_cells(cells, threads);
     out->timing.operators = watch.lap();

@@ -17,6 +17,8 @@ struct CellDomain final : Domain {
   std::shared_ptr<const CellComplex> given;
   /// Polygons whose triangles were flipped; null elsewhere.
   std::shared_ptr<const FlippedPolygons> flipped;
+  CellTable
+      faces_at;  ///< of each given vertex, the first cells of its faces, where some were flipped
   std::shared_ptr<const CellMesh> mesh;
   std::vector<Index> cell_of_given;  ///< number in `mesh` of each of cells()
 

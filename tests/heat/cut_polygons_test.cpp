@@ -134,6 +134,56 @@ TEST(CutPolygons, TakeSourcesInside) {
   }
 }
 
+TEST(CutPolygons, LetSourcesInsideSeeAcrossTheSidesOfTheirFace) {
+  // The nearest vertices lie across a long side, which the source sees them through. The march is
+  // exact there but where the straight line passes between vertices of which one is farther away.
+  std::mt19937 random(11);
+  std::uniform_real_distribution<double> share(0.02, 1);
+  for (const PolygonMesh& mesh :
+       {moved_quads(24, 1, 0.25), tiles(kNotch, 12, 10), tiles(kSpiral, 10, 10)}) {
+    const auto cells = shared(cells_of(mesh));
+    int seen = 0, wrong = 0;
+    for (int k = 0; k < 20; ++k) {
+      Index cell = static_cast<Index>(random() % static_cast<unsigned>(cells->cell_count()));
+      const auto is_fan = [&cells](Index c) {
+        return cells->corners_of(c).size() > 4 && cells->virtual_vertices[c].allFinite();
+      };
+      while (is_fan(cell)) cell = (cell + 1) % cells->cell_count();
+      const auto corners = cells->corners_of(cell);
+      const auto three = cut_corners(*cells, cell);
+      std::vector<double> weights(corners.size(), 0.0);
+      double sum = 0;
+      for (std::size_t c = 0; c < corners.size(); ++c) {
+        const bool is_taken = corners.size() == 4 || std::ranges::count(three, c) > 0;
+        if (is_taken) sum += weights[c] = share(random);
+      }
+      // Every fifth one lies on a side of its face.
+      if (k % 5 == 0) sum = (weights[0] = share(random)) + (weights[1] = share(random));
+      if (k % 5 == 0) std::fill(weights.begin() + 2, weights.end(), 0.0);
+      Vec3 at = Vec3::Zero();
+      for (std::size_t c = 0; c < corners.size(); ++c) {
+        at += (weights[c] /= sum) * mesh.positions[corners[c]];
+      }
+      SourceSet inside;
+      inside.cell_points.push_back({cells->numbers[cell], weights});
+      const auto answer = solve_cells(cells, inside);
+      std::vector<std::pair<double, Index>> nearest;
+      for (Index v = 0; v < cells->vertices; ++v) {
+        nearest.emplace_back((mesh.positions[v] - at).norm(), v);
+      }
+      std::ranges::sort(nearest);
+      for (std::size_t n = 0; n < 4; ++n) {
+        const auto [line, vertex] = nearest[n];
+        const double error = answer.distances[vertex] / line - 1;
+        EXPECT_LT(error, 0.2) << k << ", " << at.transpose();
+        seen += 1;
+        wrong += error > 1e-3 ? 1 : 0;
+      }
+    }
+    EXPECT_LT(20 * wrong, seen);
+  }
+}
+
 TEST(CutPolygons, AreWalkedAroundTheirNotch) {
   // One face alone: the way from one arm to the other leads around the gap between them.
   PolygonMesh alone = tiles({"abbba", "abbba", "abbba", "aaaaa"}, 1, 1);
