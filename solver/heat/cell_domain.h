@@ -75,8 +75,9 @@ struct NearCell {
 /// The same whatever the elimination order. Cost: some microseconds for each of their vertices.
 std::vector<NearCell> near_tets(const CellDomain& domain, const SourceAnchors& anchors);
 
-/// Near-exact distances at the polygons around the sources, by a march over their triangles at
-/// virtual vertices. None where a face there does not see all its sides from that vertex, and in
+/// Near-exact distances at the polygons around the sources, by a march over the triangles at their
+/// virtual vertices or that they were cut into; sources inside faces become corners of these. None
+/// where a face there does not see all its sides from its virtual vertex and is not cut, and in
 /// other cells. Cost: some ten microseconds for each face.
 std::vector<NearVertex> near_polygons(const CellDomain& domain, const SourceAnchors& anchors);
 

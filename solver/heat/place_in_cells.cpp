@@ -10,6 +10,7 @@
 
 #include "solver/geometry/polygon_fans.h"
 #include "solver/heat/cell_domain.h"
+#include "solver/heat/face_triangles.h"
 #include "solver/method/marching_method.h"
 
 namespace geotherm {
@@ -72,27 +73,12 @@ struct PointInTriangle {
 };
 
 /// Where a point lies that is in one of these triangles, or nearly so.
-PointInTriangle find_triangle(std::span<const Triangle> triangles, std::span<const Vec3> places,
-                              const Vec3& at) {
-  double best = -kUnreached;
-  PointInTriangle out{triangles.front(), {1, 0, 0}};
-  for (const Triangle& triangle : triangles) {
-    const std::array<Vec3, 3> to = {places[triangle[0]] - at, places[triangle[1]] - at,
-                                    places[triangle[2]] - at};
-    const Vec3 twice = (to[1] - to[0]).cross(to[2] - to[0]);
-    std::array<double, 3> here{};
-    for (std::size_t i = 0; i < 3; ++i) {
-      here[i] = to[(i + 1) % 3].cross(to[(i + 2) % 3]).dot(twice) / twice.squaredNorm();
-    }
-    const double least = std::ranges::min(here);
-    if (!(least > best)) continue;
-    best = least;
-    out = {triangle, here};
-  }
-  double sum = 0;
-  for (double& share : out.shares) sum += share = std::max(share, 0.0);
-  for (double& share : out.shares) share /= sum;
-  return out;
+PointInTriangle point_in(std::span<const Triangle> triangles, std::span<const Vec3> places,
+                         const Vec3& at) {
+  std::vector<std::array<Vec3, 3>> corners;
+  for (const auto& [a, b, c] : triangles) corners.push_back({places[a], places[b], places[c]});
+  const PlaceInTriangle found = find_triangle(corners, at);
+  return {triangles[found.triangle], found.weights};
 }
 
 /// Which corners of a face that was cut a point in it sees, and how far away they are, along
@@ -183,7 +169,7 @@ class CellPlacer {
     std::vector<double> distances;
     for (const Vec3& place : places) distances.push_back((place - at).norm());
     if (!triangles.empty()) {
-      const PointInTriangle there = find_triangle(triangles, places, at);
+      const PointInTriangle there = point_in(triangles, places, at);
       weights.assign(rows.size(), 0.0);
       for (std::size_t k = 0; k < 3; ++k) weights[there.triangle[k]] = there.shares[k];
       if (was_cut) distances = CornersInSight(triangles, places, there).distances();

@@ -157,9 +157,13 @@ TEST(CutPolygons, LetSourcesInsideSeeAcrossTheSidesOfTheirFace) {
         const bool is_taken = corners.size() == 4 || std::ranges::count(three, c) > 0;
         if (is_taken) sum += weights[c] = share(random);
       }
-      // Every fifth one lies on a side of its face.
-      if (k % 5 == 0) sum = (weights[0] = share(random)) + (weights[1] = share(random));
-      if (k % 5 == 0) std::fill(weights.begin() + 2, weights.end(), 0.0);
+      // Every other one lies on a side of its face, or nearly so.
+      if (k % 2 == 0) {
+        for (double& weight : weights) weight *= std::array{0.0, 1e-8, 1e-6, 1e-5, 1e-4}[k / 2 % 5];
+        weights[three.empty() ? 0 : three[0]] = share(random);
+        weights[three.empty() ? 1 : three[1]] = share(random);
+        sum = std::accumulate(weights.begin(), weights.end(), 0.0);
+      }
       Vec3 at = Vec3::Zero();
       for (std::size_t c = 0; c < corners.size(); ++c) {
         at += (weights[c] /= sum) * mesh.positions[corners[c]];
@@ -175,13 +179,65 @@ TEST(CutPolygons, LetSourcesInsideSeeAcrossTheSidesOfTheirFace) {
       for (std::size_t n = 0; n < 4; ++n) {
         const auto [line, vertex] = nearest[n];
         const double error = answer.distances[vertex] / line - 1;
-        EXPECT_LT(error, 0.2) << k << ", " << at.transpose();
+        EXPECT_LT(error, 0.3) << k << ", " << at.transpose() << " to "
+                              << mesh.positions[vertex].transpose() << " faces " << corners.size();
         seen += 1;
         wrong += error > 1e-3 ? 1 : 0;
       }
     }
-    EXPECT_LT(20 * wrong, seen);
+    EXPECT_LT(12 * wrong, seen);
   }
+}
+
+TEST(CutPolygons, TakeSourcesInTheirOwnTriangles) {
+  // Where corners lie in a row but for noise, other triangles of the face stand upright.
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> share(0.05, 1), noise(-0.1, 0.1);
+  PolygonMesh mesh = tiles(kSpiral, 6, 1);
+  for (Vec3& at : mesh.positions) at[2] = noise(random);
+  const auto cells = shared(cells_of(mesh));
+  int tried = 0;
+  for (Index cell = 0; cell < cells->cell_count(); cell += 11) {
+    const auto three = cut_corners(*cells, cell);
+    const auto corners = cells->corners_of(cell);
+    if (corners.size() < 5 || three.empty() || cells->virtual_vertices[cell].allFinite()) continue;
+    std::vector<double> weights(corners.size(), 0.0);
+    double sum = 0;
+    for (const std::size_t c : three) sum += weights[c] = share(random);
+    Vec3 at = Vec3::Zero();
+    for (const std::size_t c : three) at += (weights[c] /= sum) * mesh.positions[corners[c]];
+    SourceSet inside;
+    inside.cell_points.push_back({cells->numbers[cell], weights});
+    const auto answer = solve_cells(cells, inside);
+    for (const std::size_t c : three) {
+      const double line = (mesh.positions[corners[c]] - at).norm();
+      EXPECT_NEAR(answer.distances[corners[c]], line, 0.01 * line) << cell;
+    }
+    ++tried;
+  }
+  EXPECT_GT(tried, 20);
+}
+
+TEST(CutPolygons, AreCountedWithFacesThatWereLeftOut) {
+  // On a pleated sheet, whose ways are longer than straight lines.
+  PolygonMesh sheet = moved_quads(12, 1, 0.1);
+  for (Vec3& at : sheet.positions) at[2] = std::abs(std::remainder(at[0], 4.0));
+  PolygonMesh with_others = sheet;
+  // The cells are as many as there are faces before one beside the source.
+  const Index others = cells_of(sheet)->cell_count() - 76;
+  for (Index i = 0; i < others; ++i) {
+    with_others.corners.insert(with_others.corners.begin(), {0, 0, 1});
+  }
+  with_others.start = {0};
+  for (Index i = 1; i <= others; ++i) with_others.start.push_back(3 * std::int64_t{i});
+  for (std::size_t f = 1; f < sheet.start.size(); ++f) {
+    with_others.start.push_back(3 * std::int64_t{others} + sheet.start[f]);
+  }
+  SourceSet inside, same;
+  inside.cell_points.push_back({77, {0.1, 0.2, 0.3, 0.4}});
+  same.cell_points.push_back({77 + others, {0.1, 0.2, 0.3, 0.4}});
+  EXPECT_EQ(solve_cells(shared(cells_of(sheet)), inside).distances,
+            solve_cells(shared(cells_of(with_others)), same).distances);
 }
 
 TEST(CutPolygons, AreWalkedAroundTheirNotch) {
