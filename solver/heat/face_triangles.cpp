@@ -10,7 +10,7 @@ namespace {
 
 /// A point whose other two weights are below this is a corner.
 constexpr double kWeightAtCorner = 1e-6;
-/// A point is on an edge whose length times this it is not away from: triangles that are flatter
+/// A point that is nearer to an edge than this share of its length is on it: flatter triangles
 /// would be joined with no others.
 constexpr double kHeightOnEdge = 1e-4;
 
@@ -59,12 +59,12 @@ bool FaceTriangles::insert(std::int64_t number, const Vec3& place,
   const auto is_low = [](double weight) { return weight < kWeightAtCorner; };
   if (std::ranges::count_if(found.weights, is_low) > 1) return false;
   const std::array<Vec3, 3>& at = at_[found.triangle];
-  const double area = normal_of(at).norm();
+  const double twice_area = normal_of(at).norm();
   std::size_t edge = 0;  // the corner opposite to the edge that it is nearest to
   double least = kUnreached;
   for (std::size_t k = 0; k < 3; ++k) {
     const double side = (at[(k + 2) % 3] - at[(k + 1) % 3]).squaredNorm();
-    const double height = found.weights[k] * area / side;  // over the length of the side
+    const double height = found.weights[k] * twice_area / side;  // over the length of the side
     if (!(height < least)) continue;
     least = height;
     edge = k;

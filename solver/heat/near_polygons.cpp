@@ -75,10 +75,10 @@ class FlippedFaces {
 /// Sources inside faces or on their sides, not at corners.
 using InsidePoints = std::vector<const CellPoint*>;
 
-/// The triangles around the sources of one component: those of its faces, and those that were
-/// flipped. Where a source is inside a face, of that face are the triangles known that it is in, of
-/// flipped ones are not: all are those of faces then. Corners have the numbers of their rows;
-/// after these come virtual vertices, by faces, and sources inside faces.
+/// The triangles around the sources of one component: those of faces, and those that were flipped.
+/// With sources inside faces they are those of faces alone, since nothing tells in which of the
+/// flipped ones a point of a face lies. Corners have the numbers of their rows; after these come
+/// virtual vertices, by faces, and sources inside faces.
 class NearPolygons {
  public:
   NearPolygons(const CellDomain& domain, const SourceAnchors& anchors, const InsidePoints& inside,
