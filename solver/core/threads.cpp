@@ -8,8 +8,9 @@
 namespace geotherm {
 namespace {
 
+/// In HelperThreads::state_: a helper inside the pass, and the bits that count calls to be claimed.
 constexpr std::uint64_t kInside = std::uint64_t{1} << 32;
-constexpr std::uint64_t kIsOpen = kInside - 1;
+constexpr std::uint64_t kUnclaimed = kInside - 1;
 
 /// Watches for done() for about twice as long as it takes to wake a thread that sleeps. Whether it
 /// is done.
@@ -40,12 +41,12 @@ HelperThreads::~HelperThreads() {
   work_there_.notify_all();
 }
 
-bool HelperThreads::is_open() const { return (state_.load() & kIsOpen) != 0; }
+bool HelperThreads::is_open() const { return (state_.load() & kUnclaimed) != 0; }
 
 /// Claims a call and adds to the state with the same stroke.
 bool HelperThreads::claim(std::uint64_t and_add) {
   std::uint64_t state = state_.load();
-  while ((state & kIsOpen) != 0) {
+  while ((state & kUnclaimed) != 0) {
     if (state_.compare_exchange_weak(state, state - 1 + and_add)) return true;
   }
   return false;
@@ -109,7 +110,7 @@ void HelperThreads::work_on() {
 void HelperThreads::wait_for_others() {
   const auto over = [this] {
     const std::uint64_t state = state_.load();
-    return state == 0 || (state & kIsOpen) != 0;
+    return state == 0 || (state & kUnclaimed) != 0;
   };
   if (watch_for(over)) return;
   std::unique_lock lock(mutex_);
