@@ -86,7 +86,6 @@ class NearPolygons {
       : domain_(domain),
         mesh_(*domain.mesh),
         given_(*domain.given),
-        knows_flipped_(domain.flipped != nullptr && inside.empty()),
         walks_given_(domain.flipped != nullptr && !inside.empty()) {
     for (const auto& anchor : anchors.anchors) {
       if (mesh_.components.of[anchor.row] != component) continue;
@@ -148,7 +147,8 @@ class NearPolygons {
     return walks_given_ ? domain_.faces_at.at(domain_.vertex_of_row[row]) : mesh_.cells_at.at(row);
   }
   Index flipped_triangle(Index given) const {
-    return knows_flipped_ ? domain_.flipped->triangle_of_cell[given] : kNoIndex;
+    if (!domain_.flipped || walks_given_) return kNoIndex;
+    return domain_.flipped->triangle_of_cell[given];
   }
   NearFace near_face(Index triangle) const {
     NearFace out{{}, lay_out(domain_.flipped->lengths[triangle])};
@@ -232,8 +232,7 @@ class NearPolygons {
   std::vector<Vec3> places_;  ///< of the anchors and of sources inside faces
   std::vector<SourceOnSide> on_sides_;
   std::map<Index, FaceTriangles> with_sources_;  ///< of faces that hold some, by their numbers
-  bool knows_flipped_;                           ///< flipped triangles are walked over
-  bool walks_given_;                             ///< faces are, in place of flipped triangles
+  bool walks_given_;                             ///< over faces, in place of flipped triangles
   bool overlap_ = false;
 };
 

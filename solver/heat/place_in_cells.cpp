@@ -66,19 +66,12 @@ std::vector<Triangle> cut_triangles(const CellComplex& given, Index cell) {
   return out;
 }
 
-/// A point in a triangle between places: shares of its corners.
-struct PointInTriangle {
-  Triangle triangle{};
-  std::array<double, 3> shares{};
-};
-
-/// Where a point lies that is in one of these triangles, or nearly so.
-PointInTriangle point_in(std::span<const Triangle> triangles, std::span<const Vec3> places,
+/// Where a point lies that is in one of these triangles between places, or nearly so.
+PlaceInTriangle point_in(std::span<const Triangle> triangles, std::span<const Vec3> places,
                          const Vec3& at) {
   std::vector<std::array<Vec3, 3>> corners;
   for (const auto& [a, b, c] : triangles) corners.push_back({places[a], places[b], places[c]});
-  const PlaceInTriangle found = find_triangle(corners, at);
-  return {triangles[found.triangle], found.weights};
+  return find_triangle(corners, at);
 }
 
 /// Which corners of a face that was cut a point in it sees, and how far away they are, along
@@ -86,14 +79,14 @@ PointInTriangle point_in(std::span<const Triangle> triangles, std::span<const Ve
 class CornersInSight {
  public:
   CornersInSight(std::span<const Triangle> triangles, std::span<const Vec3> places,
-                 const PointInTriangle& from)
+                 const PlaceInTriangle& from)
       : triangles_(triangles), places_(places), distances_(places.size(), kUnreached) {
-    const Triangle& t = from.triangle;
+    const Triangle& t = triangles[from.triangle];
     const FaceLayout laid = layout(t[0], t[1], t[2]);
     std::array<Eigen::Vector2d, 3> at = {Eigen::Vector2d(0, 0), Eigen::Vector2d(laid.base, 0),
                                          Eigen::Vector2d(laid.x, laid.height)};
     const Eigen::Vector2d source =
-        from.shares[0] * at[0] + from.shares[1] * at[1] + from.shares[2] * at[2];
+        from.weights[0] * at[0] + from.weights[1] * at[1] + from.weights[2] * at[2];
     for (Eigen::Vector2d& corner : at) corner -= source;
     for (std::size_t k = 0; k < 3; ++k) distances_[t[k]] = at[k].norm();
     for (std::size_t k = 0; k < 3; ++k) {
@@ -169,9 +162,9 @@ class CellPlacer {
     std::vector<double> distances;
     for (const Vec3& place : places) distances.push_back((place - at).norm());
     if (!triangles.empty()) {
-      const PointInTriangle there = point_in(triangles, places, at);
+      const PlaceInTriangle there = point_in(triangles, places, at);
       weights.assign(rows.size(), 0.0);
-      for (std::size_t k = 0; k < 3; ++k) weights[there.triangle[k]] = there.shares[k];
+      for (std::size_t k = 0; k < 3; ++k) weights[triangles[there.triangle][k]] = there.weights[k];
       if (was_cut) distances = CornersInSight(triangles, places, there).distances();
     }
     for (std::size_t k = 0; k < rows.size(); ++k) {

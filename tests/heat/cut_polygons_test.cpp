@@ -100,6 +100,24 @@ TEST(CutPolygons, AreThoseThatDoNotSeeTheirSidesAlone) {
   EXPECT_NEAR(std::accumulate(cells.measures.begin(), cells.measures.end(), 0.0), 9 * 6, 1e-12);
 }
 
+struct SourceInside {
+  SourceSet sources;
+  Vec3 at;
+};
+
+/// A source in the face of a cell. Its weights are brought to a sum of 1.
+SourceInside source_inside(const PolygonMesh& mesh, const CellComplex& cells, Index cell,
+                           std::vector<double> weights) {
+  const auto corners = cells.corners_of(cell);
+  const double sum = std::accumulate(weights.begin(), weights.end(), 0.0);
+  SourceInside out{{}, Vec3::Zero()};
+  for (std::size_t c = 0; c < corners.size(); ++c) {
+    out.at += (weights[c] /= sum) * mesh.positions[corners[c]];
+  }
+  out.sources.cell_points.push_back({cells.numbers[cell], std::move(weights)});
+  return out;
+}
+
 TEST(CutPolygons, TakeSourcesInside) {
   // Somewhere in one of its triangles, which may be long and lean.
   std::mt19937 random(5);
@@ -114,18 +132,10 @@ TEST(CutPolygons, TakeSourcesInside) {
     for (int k = 0; k < 12; ++k) {
       Index cell = static_cast<Index>(random() % static_cast<unsigned>(cells->cell_count()));
       while (cells->virtual_vertices[cell].allFinite()) cell = (cell + 1) % cells->cell_count();
-      const auto corners = cells->corners_of(cell);
-      std::vector<double> weights(corners.size(), 0.0);
-      double sum = 0;
-      for (const std::size_t corner : cut_corners(*cells, cell)) {
-        sum += weights[corner] = share(random);
-      }
-      Vec3 at = Vec3::Zero();
-      for (std::size_t c = 0; c < corners.size(); ++c) {
-        at += (weights[c] /= sum) * mesh.positions[corners[c]];
-      }
-      SourceSet inside, on_triangles;
-      inside.cell_points.push_back({cells->numbers[cell], weights});
+      std::vector<double> weights(cells->corners_of(cell).size(), 0.0);
+      for (const std::size_t corner : cut_corners(*cells, cell)) weights[corner] = share(random);
+      const auto [inside, at] = source_inside(mesh, *cells, cell, weights);
+      SourceSet on_triangles;
       on_triangles.points.push_back(closest_point(*triangles, at)->point);
       of_polygons += straight_error(*cells, solve_cells(cells, inside).distances, at);
       of_triangles += straight_error(*cells, method->solve(on_triangles)->distances, at);
@@ -152,24 +162,17 @@ TEST(CutPolygons, LetSourcesInsideSeeAcrossTheSidesOfTheirFace) {
       const auto corners = cells->corners_of(cell);
       const auto three = cut_corners(*cells, cell);
       std::vector<double> weights(corners.size(), 0.0);
-      double sum = 0;
       for (std::size_t c = 0; c < corners.size(); ++c) {
         const bool is_taken = corners.size() == 4 || std::ranges::count(three, c) > 0;
-        if (is_taken) sum += weights[c] = share(random);
+        if (is_taken) weights[c] = share(random);
       }
       // Every other one lies on a side of its face, or nearly so.
       if (k % 2 == 0) {
         for (double& weight : weights) weight *= std::array{0.0, 1e-8, 1e-6, 1e-5, 1e-4}[k / 2 % 5];
         weights[three.empty() ? 0 : three[0]] = share(random);
         weights[three.empty() ? 1 : three[1]] = share(random);
-        sum = std::accumulate(weights.begin(), weights.end(), 0.0);
       }
-      Vec3 at = Vec3::Zero();
-      for (std::size_t c = 0; c < corners.size(); ++c) {
-        at += (weights[c] /= sum) * mesh.positions[corners[c]];
-      }
-      SourceSet inside;
-      inside.cell_points.push_back({cells->numbers[cell], weights});
+      const auto [inside, at] = source_inside(mesh, *cells, cell, weights);
       const auto answer = solve_cells(cells, inside);
       std::vector<std::pair<double, Index>> nearest;
       for (Index v = 0; v < cells->vertices; ++v) {
@@ -180,7 +183,8 @@ TEST(CutPolygons, LetSourcesInsideSeeAcrossTheSidesOfTheirFace) {
         const auto [line, vertex] = nearest[n];
         const double error = answer.distances[vertex] / line - 1;
         EXPECT_LT(error, 0.3) << k << ", " << at.transpose() << " to "
-                              << mesh.positions[vertex].transpose() << " faces " << corners.size();
+                              << mesh.positions[vertex].transpose() << ", face of "
+                              << corners.size() << " corners";
         seen += 1;
         wrong += error > 1e-3 ? 1 : 0;
       }
@@ -202,12 +206,8 @@ TEST(CutPolygons, TakeSourcesInTheirOwnTriangles) {
     const auto corners = cells->corners_of(cell);
     if (corners.size() < 5 || three.empty() || cells->virtual_vertices[cell].allFinite()) continue;
     std::vector<double> weights(corners.size(), 0.0);
-    double sum = 0;
-    for (const std::size_t c : three) sum += weights[c] = share(random);
-    Vec3 at = Vec3::Zero();
-    for (const std::size_t c : three) at += (weights[c] /= sum) * mesh.positions[corners[c]];
-    SourceSet inside;
-    inside.cell_points.push_back({cells->numbers[cell], weights});
+    for (const std::size_t c : three) weights[c] = share(random);
+    const auto [inside, at] = source_inside(mesh, *cells, cell, weights);
     const auto answer = solve_cells(cells, inside);
     for (const std::size_t c : three) {
       const double line = (mesh.positions[corners[c]] - at).norm();
@@ -223,7 +223,7 @@ TEST(CutPolygons, AreCountedWithFacesThatWereLeftOut) {
   PolygonMesh sheet = moved_quads(12, 1, 0.1);
   for (Vec3& at : sheet.positions) at[2] = std::abs(std::remainder(at[0], 4.0));
   PolygonMesh with_others = sheet;
-  // The cells are as many as there are faces before one beside the source.
+  // Then the face beside the source has the number that is the count of all cells.
   const Index others = cells_of(sheet)->cell_count() - 76;
   for (Index i = 0; i < others; ++i) {
     with_others.corners.insert(with_others.corners.begin(), {0, 0, 1});
