@@ -96,7 +96,7 @@ class Hand {
 
   Result<void> measure_drag(ExploreRow& row) {
     session_.set_dragging(true);
-    const Index vertices = session_.explored().model->mesh.vertices;
+    const Index vertices = session_.explored().model->mesh->vertices;
     std::vector<double> all;
     for (int i = 0; i < kDrags; ++i) {
       const auto ms = drag(static_cast<Index>((17 + 131 * i) % vertices));
@@ -137,7 +137,7 @@ class Hand {
   /// A hand goes on with a stroke, and pictures with new distances follow as fast as they can.
   Result<void> measure_stroke(ExploreRow& row) {
     session_.set_dragging(true);
-    const MeshReport mesh = session_.explored().model->mesh;
+    const MeshReport mesh = *session_.explored().model->mesh;
     const double radius = 0.06 * (mesh.box_max - mesh.box_min).norm();
     const auto point = [&](int i) {
       return FacePoint{(1000 + 7 * i) % mesh.faces, {0.25, 0.25, 0.5}};

@@ -117,7 +117,7 @@ void draw_shown_badge(Frame& frame) {
 void draw_picked(Frame& frame) {
   const auto& picked = frame.state().picked;
   if (!picked || !frame.model()) return;
-  const auto point = surface_point(*picked, frame.model()->mesh.faces);
+  const auto point = surface_point(*picked, frame.model()->model.mesh->face_count());
   if (!point) return;
   const auto figures = app::figures_at(frame.explored(), frame.state().shown, *point);
   const auto seen = frame.canvas.place_of(figures.position);

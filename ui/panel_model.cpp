@@ -81,20 +81,21 @@ void draw_space(Frame& frame, const app::ExploredModel& model) {
   for (const app::SpaceFigure& figure : model.figures) {
     if (!figure.row.empty()) draw_value(frame, figure.row.c_str(), figure.text, "", "");
   }
-  draw_count(frame, "components", model.mesh.components, "Parts that no cell joins.");
+  draw_count(frame, "components", model.mesh->components, "Parts that no cell joins.");
   for (const Warning& warning : model.warnings) {
     draw_note(sentence(warning), frame.colours().warning);
   }
 }
 
 void draw_report(Frame& frame, const app::ExploredModel& model) {
-  const MeshReport& mesh = model.mesh;
   const std::string& path = model.model.path;
   draw_value(frame, "file", path.empty() ? model.model.name + " (bundled)" : path, "",
              path.empty() ? "Comes with the program." : "");
-  draw_count(frame, "vertices", mesh.vertices);
+  draw_count(frame, "vertices", model.model.mesh->vertex_count());
+  if (!model.model.space) draw_count(frame, "faces", model.model.mesh->face_count());
+  if (!model.mesh) return;
   if (model.model.space) return draw_space(frame, model);
-  draw_count(frame, "faces", mesh.faces);
+  const MeshReport& mesh = *model.mesh;
   draw_count(frame, "components", mesh.components, "Parts without a common vertex.");
   draw_value(frame, "boundary", boundary_text(mesh), "", "Edges with one face.");
   draw_flaws(frame, mesh);
@@ -141,11 +142,11 @@ void draw_distances(Frame& frame, const app::Answer& answer) {
   }
 }
 
-/// `heat`: those of the heat method as well.
-void draw_figures(Frame& frame, const Quality& quality, bool heat) {
+void draw_figures(Frame& frame, const app::Answer& answer) {
+  const Quality& quality = answer.result.quality;
   const Palette& p = frame.colours();
   const auto warn = [&p](bool bad) { return bad ? p.warning : p.text; };
-  const double edge = frame.model()->mesh.mean_edge_length;
+  const double edge = answer.mesh.mean_edge_length;
   draw_value(frame, "distance at sources", app::significant(quality.max_source_distance, 3), "",
              "Largest |d| on a source as solved, before it is set to 0; model units. Near 0 unless "
              "the constraint mode lets sources float.",
@@ -167,7 +168,7 @@ void draw_figures(Frame& frame, const Quality& quality, bool heat) {
                "tolerance. It is wrong around them.",
                warn(quality.steep_edges > 0));
   }
-  if (!heat) return;
+  if (answer.method->heat() == nullptr) return;
   const bool compact = frame.answer()->options.precision == Precision::kCompact;
   const double large = compact ? kLargeCompactResidual : kLargeResidual;
   draw_value(frame, "heat residual", app::significant(quality.heat_residual, 2), "",
@@ -201,7 +202,7 @@ void draw_quality_panel(Frame& frame) {
   if (!answer || !frame.model()) return draw_dim(frame, "No answer yet.");
   draw_distances(frame, *answer);
   if (is_measured(answer->result.quality)) {
-    draw_figures(frame, answer->result.quality, answer->method->heat() != nullptr);
+    draw_figures(frame, *answer);
   } else {
     draw_dim(frame, "Quality is measured when nothing moves.");
   }

@@ -62,7 +62,8 @@ void draw_inside(Frame& frame, const InsidePoint& point) {
 void draw_picked_point(Frame& frame) {
   draw_heading(frame, "Picked point");
   const auto& picked = frame.state().picked;
-  const auto point = picked ? surface_point(*picked, frame.model()->mesh.faces) : std::nullopt;
+  const auto point =
+      picked ? surface_point(*picked, frame.model()->model.mesh->face_count()) : std::nullopt;
   if (!point) return draw_dim(frame, "Ctrl+click on the model keeps the figures of a point here.");
   draw_figures(frame, *point);
   const std::string text = app::to_text(app::SourceSpec(*picked));

@@ -38,9 +38,10 @@ std::optional<double> time_now(const Frame& frame) {
   const app::Answer* answer = frame.answer();
   const HeatMethod* const heat = answer ? answer->method->heat() : nullptr;
   if (frame.model()->model.space) return app::time_in_volume(options.time_step, heat);
-  if (frame.model()->mesh.components != 1) return {};
+  const auto& mesh = frame.model()->mesh;
+  if (!mesh || mesh->components != 1) return {};
   if (heat && heat->grading() != 1) return {};  // only a set-up tells
-  return app::diffusion_time(options.time_step, frame.model()->mesh);
+  return app::diffusion_time(options.time_step, *mesh);
 }
 
 /// That t, or else the one of the answer, rounded so that it can be read.
@@ -193,14 +194,15 @@ void draw_refine(Frame& frame, const app::Setting& setting) {
   for (const std::string& value : setting.values()) {
     const int times = app::number_in<int>(value).value_or(0);
     const bool said = times > 0 && frame.model() && !frame.model()->model.space;
-    labels.push_back(said ? value + ": " + app::refined_in_words(frame.model()->mesh.faces, times)
-                          : value);
+    labels.push_back(
+        said ? value + ": " + app::refined_in_words(frame.model()->model.mesh->face_count(), times)
+             : value);
   }
   const std::string now = setting.get(frame.state());
   const auto chosen = draw_choice(frame, setting.name, now, labels);
   if (chosen && name_part(*chosen) != now) frame.set(setting.name, name_part(*chosen));
   if (frame.state().options.refine > 0 && frame.model()) {
-    const Index faces = frame.model()->mesh.faces;
+    const Index faces = frame.model()->model.mesh->face_count();
     draw_value(frame, "solved on", app::refined_in_words(faces, frame.state().options.refine), "",
                "Each face is cut into four so often.");
   }

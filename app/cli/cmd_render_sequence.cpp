@@ -181,7 +181,7 @@ class FramePainter {
     if (first) largest_face_value_ = data.largest_face_value;
     data.largest_face_value = largest_face_value_;
     if (!shows_arrows(view)) return data;
-    if (first) solid_ = is_solid(mesh, inspect_mesh(mesh));
+    if (first) solid_ = is_solid(mesh);
     data.solid = solid_;
     add_fields(data, mesh, answer.result);
     return data;

@@ -277,8 +277,8 @@ PictureFigures figures_of(const Session& session, const PictureSettings& setting
   figures.model = explored.model->model.name;
   figures.model_argument = state.model;
   for (const SourceSpec& source : explored.sources) figures.sources.push_back(to_text(source));
-  figures.vertices = explored.model->mesh.vertices;
-  figures.faces = explored.model->mesh.faces;
+  figures.vertices = explored.model->model.mesh->vertex_count();
+  figures.faces = explored.model->model.mesh->face_count();
   figures.settings = settings;
   if (const Answer* answer = shown_answer(explored, state.shown)) {
     figures.solve = *answer;

@@ -21,7 +21,7 @@ namespace geotherm::app {
 namespace {
 
 /// A mesh without any area has no distances but may be looked at all the same.
-bool has_area(const TriangleMesh& mesh) { return inspect_mesh(mesh).area > 0; }
+bool has_area(const TriangleMesh& mesh) { return summarize_mesh(mesh).area > 0; }
 
 /// What a file holds of vertices, in place of distances.
 Result<void> draw_field(const std::string& path, const Model& model,
@@ -298,7 +298,7 @@ Result<PictureData> prepare_picture(const RenderArguments& arguments, const View
   set_view_values(data, solved->model, view, &solved->result);
   if (shows_arrows(view)) {
     add_fields(data, *mesh, solved->result);
-    data.solid = is_solid(*mesh, inspect_mesh(*mesh));
+    data.solid = is_solid(*mesh);
   }
   figures.solve = *std::move(solved);
   return data;

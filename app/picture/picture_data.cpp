@@ -8,6 +8,9 @@
 
 #include "app/picture/openness.h"
 #include "geotherm/accuracy.h"
+#include "solver/core/parallel.h"
+#include "solver/core/sorting.h"
+#include "solver/geometry/clean_faces.h"
 #include "solver/geometry/face_gradient.h"
 #include "solver/volume/clean_tets.h"
 
@@ -129,10 +132,17 @@ void move_picture(PictureData& data, const TriangleMesh& mesh) {
 
 void light_picture(PictureData& data) { data.openness = openness_of(data.positions, data.faces); }
 
-bool is_solid(const TriangleMesh& mesh, const MeshReport& report) {
-  if (report.boundary_edges > 0 || report.nonmanifold_edges > 0 || report.inconsistent_faces > 0 ||
-      report.edge_components != 1 || !report.orientable) {
-    return false;
+bool is_solid(const TriangleMesh& mesh) {
+  const CleanFaces clean = clean_faces(mesh, thread_count(0));
+  if (!clean.oriented_manifold || clean.reoriented > 0) return false;
+  DisjointSets pieces(clean.faces.size());
+  for (Index e = 0; e < clean.edges.edge_count(); ++e) {
+    const auto sides = clean.edges.sides(e);
+    if (sides.size() != 2) return false;
+    pieces.join(face_of(sides[0]), face_of(sides[1]));
+  }
+  for (Index f = 0; f < std::ssize(clean.faces); ++f) {
+    if (pieces.root(f) != 0) return false;
   }
   const SceneSpace scene(mesh);
   double volume = 0;  // times six: the determinant of each face's corners

@@ -102,7 +102,8 @@ void move_picture(PictureData& data, const TriangleMesh& mesh);
 void light_picture(PictureData& data);
 
 /// Whether the mesh is one closed surface whose faces all run counter-clockwise seen from outside.
-bool is_solid(const TriangleMesh& mesh, const MeshReport& report);
+/// Cost: O(F).
+bool is_solid(const TriangleMesh& mesh);
 
 /// Sets where distance is 0. `in_cells`: where those are that lie in cells of a space.
 void add_sources(PictureData& data, const TriangleMesh& mesh, const SourceSet& sources,

@@ -23,7 +23,7 @@ namespace geotherm::app {
 /// A model made ready for exploring.
 struct ExploredModel {
   Model model;
-  MeshReport mesh;
+  std::optional<MeshReport> mesh;           ///< none: it is not described yet, nor are the next two
   std::vector<Warning> warnings;            ///< about file and mesh, one sentence each
   std::vector<SpaceFigure> figures;         ///< of a space
   std::shared_ptr<const PictureData> base;  ///< without a solve

@@ -57,23 +57,6 @@ void add_places(const ResolvedSources& placed, int entry, const Model& model,
   }
 }
 
-/// What is to be said about a model's mesh.
-void describe(ExploredModel& model) {
-  model.mesh = inspect_mesh(*model.model.mesh);
-  describe_space(model.model, model.mesh);
-  model.warnings = model.model.notes;
-  if (const auto& space = model.model.space) {
-    model.figures = space->figures();
-    if (std::string unseen = space->unseen(); !unseen.empty()) {
-      model.warnings.push_back({std::move(unseen)});
-    }
-  }
-  for (Warning& warning :
-       model.model.is_mesh() ? mesh_warnings(model.mesh) : std::vector<Warning>()) {
-    model.warnings.push_back(std::move(warning));
-  }
-}
-
 }  // namespace
 
 /// All entries as one set, and the places of each. What the last request had as well is not placed
@@ -132,14 +115,10 @@ Result<void> Explorer::load(const ExploreRequest& request, const Progress& progr
   auto model = std::make_shared<ExploredModel>();
   model->model = *std::move(loaded);
   const std::shared_ptr<const TriangleMesh> mesh = model->model.mesh;
-  if (!report(progress, "inspecting", -1)) return cancelled_error();
-  auto picture = std::async(std::launch::async, [&model, &mesh] {
-    return unlit_picture_of(*mesh, tets_of(model->model));
-  });
-  describe(*model);
-  auto base = std::make_shared<PictureData>(picture.get());
+  auto solid = std::async(std::launch::async, [&mesh] { return is_solid(*mesh); });
+  auto base = std::make_shared<PictureData>(unlit_picture_of(*mesh, tets_of(model->model)));
   base->up = model->model.up;
-  base->solid = is_solid(*mesh, model->mesh);
+  base->solid = solid.get();
   model->base = std::move(base);
   Explored first;
   first.model = model;
@@ -147,7 +126,6 @@ Result<void> Explorer::load(const ExploreRequest& request, const Progress& progr
   read_ = model_ = std::move(model);
   is_whole_ = false;
   solver_.emplace(model_->model, ModelSolver::Use::kSession);
-  solver_->set_summary(model_->mesh);
   model_text_ = request.model;
   reading_ = request.reading;
   opening_ = request.opening;
@@ -262,24 +240,6 @@ std::optional<double> time_of(const HeatMethod* heat) {
 }
 
 }  // namespace
-
-/// What is said of the mesh, once it rests.
-Result<void> Explorer::inspect(const Progress& progress) {
-  if (inspected_) return {};
-  if (!report(progress, "inspecting", -1)) return cancelled_error();
-  auto model = std::make_shared<ExploredModel>(*model_);
-  if (!model->rays) {
-    if (auto made = make_rays(*model, progress); !made) return made;
-  }
-  describe(*model);
-  auto base = std::make_shared<PictureData>(*model->base);
-  light_picture(*base);
-  model->base = std::move(base);
-  solver_->set_summary(model->mesh);
-  model_ = std::move(model);
-  inspected_ = true;
-  return {};
-}
 
 /// The options while a stroke is drawn: the diffusion time stays what it was at rest, where it
 /// would follow the mean edge, so that the heat step, too, is solved anew only near the brush.

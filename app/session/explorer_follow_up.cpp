@@ -1,22 +1,66 @@
 // SPDX-License-Identifier: MIT
-// What follows an answer: light, paths, the centre of its sources, the check.
+// What answers do not wait for: what is said of the mesh, light, paths, the centre of the sources,
+// the check.
+#include <future>
+
 #include "app/session/explorer.h"
 #include "app/session/progress.h"
 #include "app/session/wording.h"
 
 namespace geotherm::app {
+namespace {
 
-/// Finds how light falls on the model as its file has it, and what picks on it; answers are shown
-/// before.
+/// What is to be said about a model's mesh.
+void describe(ExploredModel& model) {
+  model.mesh = inspect_mesh(*model.model.mesh);
+  describe_space(model.model, *model.mesh);
+  model.warnings = model.model.notes;
+  if (const auto& space = model.model.space) {
+    model.figures = space->figures();
+    if (std::string unseen = space->unseen(); !unseen.empty()) {
+      model.warnings.push_back({std::move(unseen)});
+    }
+  }
+  for (Warning& warning :
+       model.model.is_mesh() ? mesh_warnings(*model.mesh) : std::vector<Warning>()) {
+    model.warnings.push_back(std::move(warning));
+  }
+}
+
+}  // namespace
+
+/// What is said of the mesh, once it rests.
+Result<void> Explorer::inspect(const Progress& progress) {
+  if (inspected_) return {};
+  if (!report(progress, "inspecting", -1)) return cancelled_error();
+  auto model = std::make_shared<ExploredModel>(*model_);
+  if (!model->rays) {
+    if (auto made = make_rays(*model, progress); !made) return made;
+  }
+  describe(*model);
+  auto base = std::make_shared<PictureData>(*model->base);
+  light_picture(*base);
+  model->base = std::move(base);
+  solver_->set_summary(model->mesh);
+  model_ = std::move(model);
+  inspected_ = true;
+  return {};
+}
+
+/// Describes the model as its file has it, finds how light falls on it, and what picks on it;
+/// answers are shown before.
 Result<void> Explorer::make_whole(Result<Explored>& explored, const Progress& progress,
                                   const Early& early) {
   if (explored && explored->a) {
     early(*explored);
     explored->shown = true;
   }
-  auto rays = RayTree::build(read_->model.mesh, progress);
-  if (!rays) return rays.error();
+  if (!report(progress, "inspecting", -1)) return cancelled_error();
   auto whole = std::make_shared<ExploredModel>(*read_);
+  auto described = std::async(std::launch::async, [&whole] { describe(*whole); });
+  auto rays = RayTree::build(read_->model.mesh, progress);
+  described.get();
+  if (!rays) return rays.error();
   whole->rays = std::make_shared<const RayTree>(*std::move(rays));
   auto base = std::make_shared<PictureData>(*whole->base);
   light_picture(*base);
@@ -25,6 +69,7 @@ Result<void> Explorer::make_whole(Result<Explored>& explored, const Progress& pr
   if (model_ == read_) {
     model_ = whole;
     rays_ = whole->rays;
+    solver_->set_summary(whole->mesh);
   }
   read_ = std::move(whole);
   if (explored) {

@@ -64,8 +64,8 @@ class ModelSolver {
   explicit ModelSolver(Model model, Use use = Use::kOneAnswer);
 
   const Model& model() const { return model_; }
-  /// Sets the mesh summary, so that solve() does not compute it.
-  void set_summary(const MeshSummary& mesh) { summary_ = mesh; }
+  /// Sets the mesh summary, so that solve() does not compute it; none: the next one does.
+  void set_summary(const std::optional<MeshSummary>& mesh) { summary_ = mesh; }
   /// The same model with its vertices elsewhere, with faces as before. Heat methods of it take over
   /// what they can from those that were wanted before it; what else was kept goes, but for the
   /// summary, which set_summary() renews.

@@ -88,6 +88,7 @@ struct Session::State {
   bool close_opening();
   void look_head_on();
   bool take_more_of_model(const std::shared_ptr<const ExploredModel>& model);
+  void note_model(const ExploredModel& before);
   void note_warnings(const Explored& before);
   void note_error(const Explored& before);
   void note_centre(const Explored& before);

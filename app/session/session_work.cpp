@@ -152,12 +152,9 @@ bool Session::State::take() {
       explored.version = version + 1;
       before_opening.reset();
       note(LogLine::Kind::kNote, "opened " + one_line(explored.model->model.name) + ": " +
-                                     grouped(explored.model->mesh.vertices) + " vertices, " +
-                                     size_in_words(explored.model->model));
+                                     grouped(explored.model->model.mesh->vertex_count()) +
+                                     " vertices, " + size_in_words(explored.model->model));
       look_head_on();
-      for (const Warning& warning : explored.model->warnings) {
-        note(LogLine::Kind::kWarning, warning);
-      }
     } else if (auto* answered_now = std::get_if<Answered>(&message)) {
       take_answer(answered_now->request, std::move(answered_now->answer));
     } else if (auto* part = std::get_if<Studied>(&message)) {
@@ -181,8 +178,14 @@ bool Session::State::take() {
 bool Session::State::take_more_of_model(const std::shared_ptr<const ExploredModel>& model) {
   if (!explored.model || explored.model->model.mesh != model->model.mesh) return false;
   if (explored.model->base != model->base) ++explored.version;
-  explored.model = model;
+  note_model(*std::exchange(explored.model, model));
   return true;
+}
+
+/// What is warned of a model once it is described; `before` is what was shown.
+void Session::State::note_model(const ExploredModel& before) {
+  if (before.mesh || !explored.model->mesh) return;
+  for (const Warning& warning : explored.model->warnings) note(LogLine::Kind::kWarning, warning);
 }
 
 /// A grid of one layer is looked at head-on, where nobody has turned it yet.
@@ -235,6 +238,7 @@ void Session::State::take_answer(const ExploreRequest& request, Result<Explored>
   const std::uint64_t version = explored.version;
   const Explored before = std::exchange(explored, *std::move(answer));
   explored.version = version + 1;
+  if (before.model) note_model(*before.model);
   answered = request;
   if (is_last) failure.clear();
   if (is_last && explored.b_failure) say_failure(*explored.b_failure);

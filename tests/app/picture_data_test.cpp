@@ -259,7 +259,7 @@ TEST(PictureScaleOf, IsolinesCloserThanPixelsHasNone) {
 TEST(Solids, AreClosedAndTurnedOutwards) {
   const auto solid = [](const Draft& draft) {
     const MeshPtr mesh = finish(draft);
-    return app::is_solid(*mesh, inspect_mesh(*mesh));
+    return app::is_solid(*mesh);
   };
   Draft ball = sphere(2);
   EXPECT_TRUE(solid(ball));

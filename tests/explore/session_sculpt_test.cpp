@@ -27,7 +27,7 @@ class SessionSculpt : public SessionFixture {
 
   /// A radius that holds some dozens of vertices.
   std::string radius() const {
-    const MeshReport& mesh = session.explored().model->mesh;
+    const MeshReport& mesh = *session.explored().model->mesh;
     return std::to_string(0.15 * (mesh.box_max - mesh.box_min).norm());
   }
   /// Two strokes as a hand makes them, touch by touch.
@@ -130,8 +130,8 @@ TEST_F(SessionSculpt, AllThatIsShownFollowsTheSurface) {
   EXPECT_NE(after.places[0].position, before.places[0].position);
   EXPECT_NE(after.model->base->positions, before.model->base->positions);
   EXPECT_EQ(after.model->base->model_per_scene, before.model->base->model_per_scene);
-  EXPECT_NE(after.model->mesh.area, before.model->mesh.area);
-  EXPECT_EQ(after.a->mesh.area, after.model->mesh.area);
+  EXPECT_NE(after.model->mesh->area, before.model->mesh->area);
+  EXPECT_EQ(after.a->mesh.area, after.model->mesh->area);
   EXPECT_EQ(after.a->model.name, "small (sculpted)");
   // Where a ray meets the surface now.
   const Vec3 place = position_at(mesh, point), up(0, 1, 0);

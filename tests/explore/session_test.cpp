@@ -66,10 +66,10 @@ TEST_F(SessionTest, OpeningAgainReadsTheFileAnew) {
   const std::string path = folder() + "changing.obj";
   write(path, "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
   run({"open " + path});
-  EXPECT_EQ(session.explored().model->mesh.faces, 1);
+  EXPECT_EQ(session.explored().model->mesh->faces, 1);
   write(path, "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nf 1 2 3\nf 2 4 3\n");
   run({"open " + path});
-  EXPECT_EQ(session.explored().model->mesh.faces, 2);
+  EXPECT_EQ(session.explored().model->mesh->faces, 2);
 }
 
 TEST_F(SessionTest, AAndBAreSolvedOnTheSameSourcesAndSubtracted) {
@@ -379,7 +379,7 @@ TEST(DiffusionTime, IsWhatTheMethodUses) {
     ASSERT_TRUE(session.submit(command::Set{"time-step", rule}));
     ASSERT_TRUE(session.submit(command::Open{"bunny"}));
     const HeatMethod& method = *session.explored().a->method->heat();
-    const double t = diffusion_time(method.options().time_step, session.explored().model->mesh);
+    const double t = diffusion_time(method.options().time_step, *session.explored().model->mesh);
     EXPECT_NEAR(t, method.t(), 1e-12 * method.t()) << rule;
   }
 }

@@ -77,7 +77,7 @@ TEST_F(SessionThread, ThePictureFollowsADrag) {
 TEST_F(SessionThread, ThePictureFollowsAStroke) {
   ASSERT_TRUE(threaded.submit(command::Open{small_model()}));
   ASSERT_TRUE(threaded.finish());
-  const MeshReport& mesh = threaded.explored().model->mesh;
+  const MeshReport& mesh = *threaded.explored().model->mesh;
   const double radius = 0.1 * (mesh.box_max - mesh.box_min).norm();
   threaded.set_dragging(true);
   ASSERT_TRUE(threaded.submit(

@@ -22,7 +22,7 @@ class PanelsOfSpaces : public UiTest {
 TEST_F(PanelsOfSpaces, OfferTheBoundaryOfAClosedBody) {
   run("open " + (folder() / "block.vti").string());
   frames(2);
-  ASSERT_EQ(session_.explored().model->mesh.boundary_edges, 0) << "its outside is closed";
+  ASSERT_EQ(session_.explored().model->mesh->boundary_edges, 0) << "its outside is closed";
   EXPECT_FALSE(session_.explored().model->figures.empty());
   click_item("Sources/boundary");
   EXPECT_EQ(sent(), Texts{"source set boundary"});
