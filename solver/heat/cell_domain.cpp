@@ -35,9 +35,9 @@ std::vector<ComponentSize> measure_cells(const CellMesh& mesh) {
 
 /// Of this thickness in mean widths t is the square of the mean width, and at least this share of
 /// it in thinner bodies: in irregular ones distances would become too short.
-constexpr double kThickness = 7.5, kLeastTime = 0.7;
+constexpr double kThickness = 10, kLeastTime = 0.6;
 /// Below this share of the cube root of the volume a thickness is that of a long or thin body.
-constexpr double kLongBody = 0.45;
+constexpr double kLongBody = 0.6;
 
 /// X scatters by the same angles whatever the number of tets, which makes distances too short by a
 /// share like h^2 / t; what the border and corners make too long falls like sqrt(t) over the
@@ -70,7 +70,8 @@ void follow_thickness(CellDomain& domain) {
     const double side = std::cbrt(volume[c]);
     const double of_ball = std::cbrt(36 * std::numbers::pi) * side * side;
     double thickness = 3 * volume[c] / std::max(area[c], of_ball);
-    thickness *= std::min(1.0, thickness / (kLongBody * side));
+    const double roundness = std::min(1.0, thickness / (kLongBody * side));
+    thickness *= roundness * roundness;
     const double in_widths = thickness / size.mean_edge;
     size.grading = std::max(kLeastTime, std::pow(in_widths / kThickness, 2.0 / 3));
   }
