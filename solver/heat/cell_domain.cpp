@@ -35,7 +35,7 @@ std::vector<ComponentSize> measure_cells(const CellMesh& mesh) {
 
 /// Of this thickness in mean widths t is the square of the mean width, and at least this share of
 /// it in thinner bodies: in irregular ones distances would become too short.
-constexpr double kThickness = 10, kLeastTime = 0.6;
+constexpr double kThickness = 13, kLeastTime = 0.6;
 /// Below this share of the cube root of the volume a thickness is that of a long or thin body.
 constexpr double kLongBody = 0.6;
 
