@@ -2,6 +2,8 @@
 #include <algorithm>
 #include <cmath>
 #include <new>
+#include <numeric>
+#include <span>
 #include <string>
 
 #include "geotherm/domains.h"
@@ -34,6 +36,9 @@ Result<void> check_sizes(const CellComplex& cells) {
   const std::size_t gradients = cells.corners.size() * static_cast<std::size_t>(cells.dimension);
   if (cells.gradients.size() != gradients) {
     return bad_size("numbers of gradients", cells.gradients.size(), gradients);
+  }
+  if (!cells.shares.empty() && cells.shares.size() != cells.corners.size()) {
+    return bad_size("shares", cells.shares.size(), cells.corners.size());
   }
   const auto vertices = static_cast<std::size_t>(std::max(cells.vertices, 0));
   if (!cells.positions.empty() && cells.positions.size() != vertices) {
@@ -81,7 +86,16 @@ Result<void> check_cell(const CellComplex& cells, Index cell) {
     return bad_cells(name + " has the " + what + " " + rounded_text(value) +
                      "; it must be above 0");
   }
-  constexpr double kRounding = 1e-9;  // of the largest gradient
+  constexpr double kRounding = 1e-9;  // of the largest gradient, of 1
+  if (!cells.shares.empty()) {
+    const std::span shares(cells.shares.data() + cells.start[c], corners.size());
+    const double sum = std::accumulate(shares.begin(), shares.end(), 0.0);
+    if (!(std::ranges::min(shares) >= 0) || !(std::abs(sum - 1) <= kRounding)) {
+      return bad_cells("the shares of " + name + " are at least " +
+                       rounded_text(std::ranges::min(shares)) + " and sum to " + rounded_text(sum) +
+                       "; they must not be below 0 and sum to 1");
+    }
+  }
   for (int e = 0; e < cells.dimension; ++e) {
     double sum = 0, largest = 0;
     for (std::int64_t k = cells.start[c]; k < cells.start[c + 1]; ++k) {

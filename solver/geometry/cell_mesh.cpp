@@ -90,6 +90,7 @@ class CellMeshBuilder {
                                  }) == out_.start.end();
     out_.corners.resize(static_cast<std::size_t>(out_.start.back()));
     out_.gradients.resize(out_.corners.size() * static_cast<std::size_t>(cells_.dimension));
+    if (!cells_.shares.empty()) out_.shares.resize(out_.corners.size());
     out_.measures.resize(count);
     out_.widths.resize(count);
     parallel_for(threads_, std::ssize(out_.measures), kCellGrain,
@@ -102,8 +103,10 @@ class CellMeshBuilder {
     out_.mass.assign(static_cast<std::size_t>(size_), 0.0);
     for (Index c = 0; c < out_.cell_count(); ++c) {
       const auto corners = out_.corners_of(c);
-      for (const Index i : corners) {
-        out_.mass[i] += out_.measures[c] / static_cast<double>(corners.size());
+      for (std::size_t k = 0; k < corners.size(); ++k) {
+        out_.mass[corners[k]] += out_.shares.empty()
+                                     ? out_.measures[c] / static_cast<double>(corners.size())
+                                     : out_.measures[c] * out_.shares[out_.start[c] + k];
       }
     }
   }
@@ -146,6 +149,10 @@ class CellMeshBuilder {
     const double* const from = cells_.gradients.data() + cells_.start[given] * d;
     std::transform(from, from + std::ssize(corners) * d, out_.gradients.begin() + out_.start[c] * d,
                    [this](double g) { return g * unit_; });
+    if (!out_.shares.empty()) {
+      std::copy_n(cells_.shares.begin() + cells_.start[given], corners.size(),
+                  out_.shares.begin() + out_.start[c]);
+    }
     out_.measures[c] = cells_.measures[given] / mean;
     out_.widths[c] = cells_.widths[given] / unit_;
   }
@@ -172,14 +179,25 @@ class CellMeshBuilder {
         const auto place = std::ranges::lower_bound(columns, corners[k]) - columns.begin();
         entries[place] += product;
         if (shared != nullptr) {
-          const auto count = static_cast<double>(corners.size());
           const double width = out_.widths[c] / out_.mean_width[out_.components.of[i]];
           const double share =
               std::clamp((kLumpedWidth - width) / (kLumpedWidth - kConsistentWidth), 0.0, 1.0);
-          shared[place] += share * out_.measures[c] / (count * (count + 1));
+          shared[place] += share * out_.measures[c] * consistent_mass(c, own, k);
         }
       }
     }
+  }
+
+  /// Of two corners of a cell with the measure 1: where its shares are equal that of hat functions
+  /// on a simplex, and with others of three corners in proportion to both.
+  double consistent_mass(Index c, std::ptrdiff_t i, std::ptrdiff_t j) const {
+    if (out_.shares.empty()) {
+      const auto count = static_cast<double>(out_.corners_of(c).size());
+      return 1 / (count * (count + 1));
+    }
+    constexpr double kOfTriangle = 0.75;  // 1/12 for shares of 1/3
+    const double* const shares = out_.shares.data() + out_.start[c];
+    return kOfTriangle * shares[i] * shares[j];
   }
 
   const CellComplex& cells_;

@@ -94,6 +94,7 @@ struct CellMesh : CellMatrix {
   RawVector<double> gradients;      ///< D to a corner
   RawVector<double> measures;       ///< C
   RawVector<double> widths;         ///< C
+  RawVector<double> shares;         ///< of the measure, to each corner; empty: all are equal
   std::vector<double> mean_width;   ///< of each component's cells
   RawVector<Index> given_cell;      ///< C: number in the CellComplex
   std::vector<CellRange> ranges;    ///< all rows, in order; the same for every thread count

@@ -72,11 +72,16 @@ Vec3 virtual_vertex(std::span<const Vec3> corners) {
 /// value is the mean of the corners' that makes it harmonic on these triangles. Or a cell for each
 /// triangle that it was cut into.
 struct PolygonElement {
-  double width = 0;  ///< mean distance between two corners
+  /// Mean side of the triangles that triangulated() cuts it into; of those of both ways to cut four
+  /// corners.
+  double width = 0;
   /// The virtual vertex; not finite: it was cut.
   Vec3 apex = Vec3::Constant(std::numeric_limits<double>::quiet_NaN());
   std::vector<double> areas;                ///< of each triangle; none: the face has no area
   std::vector<Eigen::Matrix2Xd> gradients;  ///< of each triangle: 2 x k
+  /// Of each triangle's area, a third to each of its corners: what the virtual vertex has goes to
+  /// all corners of the face, in equal parts, since a mean's weights may be negative.
+  std::vector<Eigen::VectorXd> shares;
 };
 
 /// Whether the triangles at the virtual vertex are the face, and none is nearly flat.
@@ -143,21 +148,37 @@ PolygonElement polygon_element(const std::vector<Vec3>& positions, std::span<con
                                io::PolygonCutter& cutter) {
   const std::size_t k = face.size();
   PolygonElement out;
-  std::vector<Vec3> at;  // in mean distances between two corners
+  std::vector<Vec3> at;
+  double unit = 0;  // mean distance between two corners
   for (std::size_t i = 0; i < k; ++i) {
     at.push_back(positions[face[i]] - positions[face[0]]);
-    for (std::size_t j = 0; j < i; ++j) out.width += (at[i] - at[j]).norm();
+    for (std::size_t j = 0; j < i; ++j) unit += (at[i] - at[j]).norm();
   }
-  out.width /= static_cast<double>(k * (k - 1)) / 2;
-  for (Vec3& corner : at) corner /= out.width;
+  unit /= static_cast<double>(k * (k - 1)) / 2;
+  for (Vec3& corner : at) corner /= unit;
   const auto count = static_cast<Eigen::Index>(k);
-  const auto put = [&out](const FanTriangle& t, const Eigen::Matrix2Xd& gradient) {
-    out.gradients.emplace_back(gradient / out.width);
-    out.areas.push_back(t.area * out.width * out.width);
+  const auto put = [&](const FanTriangle& t, const Eigen::Matrix2Xd& gradient,
+                       std::initializer_list<Index> corners) {
+    out.gradients.emplace_back(gradient / unit);
+    out.areas.push_back(t.area * unit * unit);
+    const double rest = 1 - static_cast<double>(corners.size()) / 3;
+    auto& shares =
+        out.shares.emplace_back(Eigen::VectorXd::Constant(count, rest / static_cast<double>(k)));
+    for (const Index corner : corners) shares[corner] += 1.0 / 3;
   };
   const Vec3 apex = k == 3 ? at[2] : virtual_vertex(at);
-  if (k == 3 || !is_fan(at, apex)) {
-    const std::vector<Face> triangles = cut_into_triangles(positions, face, at, cutter);
+  const bool cut = k == 3 || !is_fan(at, apex);
+  out.width = unit;  // of three and four corners it is that of their triangles
+  std::vector<Face> triangles;
+  if (cut || k > 4) {
+    triangles = cut_into_triangles(positions, face, at, cutter);
+    double sum = 0;
+    for (const auto& [a, b, c] : triangles) {
+      for (const double side : side_lengths(at[a], at[b], at[c])) sum += side;
+    }
+    out.width *= sum / static_cast<double>(3 * triangles.size());
+  }
+  if (cut) {
     double area = 0;
     for (const auto& [a, b, c] : triangles) area += (at[b] - at[a]).cross(at[c] - at[a]).norm() / 2;
     // Flatter than this, rounding decides where the plane lies.
@@ -169,11 +190,11 @@ PolygonElement polygon_element(const std::vector<Vec3>& positions, std::span<con
       gradient.col(a) = t.from;
       gradient.col(b) = t.to;
       gradient.col(c) = t.apex;
-      put(t, gradient);
+      put(t, gradient, {a, b, c});
     }
     return out;
   }
-  out.apex = positions[face[0]] + out.width * apex;
+  out.apex = positions[face[0]] + unit * apex;
   std::vector<FanTriangle> fan;
   Eigen::VectorXd pull = Eigen::VectorXd::Zero(count);
   for (std::size_t i = 0; i < k; ++i) {
@@ -184,10 +205,11 @@ PolygonElement polygon_element(const std::vector<Vec3>& positions, std::span<con
   }
   const Eigen::VectorXd weights = pull / pull.sum();
   for (std::size_t i = 0; i < k; ++i) {
+    const auto from = static_cast<Index>(i), to = static_cast<Index>((i + 1) % k);
     Eigen::Matrix2Xd gradient = fan[i].apex * weights.transpose();
-    gradient.col(static_cast<Eigen::Index>(i)) += fan[i].from;
-    gradient.col(static_cast<Eigen::Index>((i + 1) % k)) += fan[i].to;
-    put(fan[i], gradient);
+    gradient.col(from) += fan[i].from;
+    gradient.col(to) += fan[i].to;
+    put(fan[i], gradient, {from, to});
   }
   return out;
 }
@@ -264,6 +286,7 @@ Result<CellComplex> cells_of(const PolygonMesh& mesh) try {
       cells.start.push_back(std::ssize(cells.corners));
       const auto gradients = element.gradients[t].reshaped();
       cells.gradients.insert(cells.gradients.end(), gradients.begin(), gradients.end());
+      cells.shares.insert(cells.shares.end(), element.shares[t].begin(), element.shares[t].end());
       cells.measures.push_back(element.areas[t]);
       cells.numbers.push_back(static_cast<Index>(f));
       cells.widths.push_back(element.width);

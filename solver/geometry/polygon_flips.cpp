@@ -21,7 +21,7 @@ double mean_side(const std::array<double, 3>& l) { return (l[0] + l[1] + l[2]) /
 
 /// Triangles are flipped where the cotangents at an edge among them have a sum below this: near to
 /// 0 the elimination of the virtual vertices does better. Chosen on the meshes of docs/domains.md.
-constexpr double kFlipped = -0.6;
+constexpr double kFlipped = -0.3;
 
 /// `from_virtual`: the vertices from there on are virtual. Between triangles without one, as on
 /// triangle meshes, all are flipped.
@@ -219,6 +219,13 @@ class PolygonFlipper {
     cells.start.push_back(std::ssize(cells.corners));
     const auto from = given_.gradients.begin() + 2 * given_.start[c];
     cells.gradients.insert(cells.gradients.end(), from, from + 2 * std::ssize(corners));
+    if (given_.shares.empty()) {
+      cells.shares.insert(cells.shares.end(), corners.size(),
+                          1.0 / static_cast<double>(corners.size()));
+    } else {
+      const auto shares = given_.shares.begin() + given_.start[c];
+      cells.shares.insert(cells.shares.end(), shares, shares + std::ssize(corners));
+    }
     cells.measures.push_back(given_.measures[c]);
     cells.widths.push_back(given_.widths[c]);
   }
@@ -237,7 +244,9 @@ class PolygonFlipper {
       if (same == cells.corners.end()) {
         cells.corners.push_back(triangle[k]);
         cells.gradients.insert(cells.gradients.end(), {0, 0});
+        cells.shares.push_back(0);
       }
+      cells.shares[place] += 1.0 / 3;
       for (int e = 0; e < 2; ++e) cells.gradients[2 * place + e] += of_corners[k][e] / unit_;
     }
     cells.start.push_back(std::ssize(cells.corners));

@@ -25,16 +25,16 @@ namespace geotherm {
 
 /// A space cut into cells. A cell joins k vertices, which may be another number in each, and gives
 /// the values on them one gradient of D numbers, in a frame of its own. The stiffness of a cell is
-/// measure times G' G, G its D x k gradients; its mass goes to its vertices in equal shares.
+/// measure times G' G, G its D x k gradients; its mass goes to its vertices in shares.
 struct CellComplex {
   Index vertices = 0;               ///< V
   int dimension = 0;                ///< D: 1, 2 or 3
   std::vector<std::int64_t> start;  ///< C + 1: cell c has the corners start[c] to start[c + 1]
-  std::vector<Index> corners;       ///< of all cells, one after the other; a cell's are different
+  std::vector<Index> corners;       ///< S, of all cells, one after the other; a cell's are different
   std::vector<double> gradients;    ///< D to a corner: of its hat function, 1 / model units
   std::vector<double> measures;     ///< C: lengths, areas or volumes, > 0
-  std::vector<double> widths;       ///< C: lengths that u is linear over, > 0, such as the longest
-                                    ///< edges; t follows their mean
+  std::vector<double> shares;       ///< S: of the measure, to each corner; empty: all are equal
+  std::vector<double> widths;       ///< C: lengths that u is linear over, > 0; t has their mean
   std::vector<char> on_boundary;    ///< V: what the boundary rules hold; empty: none
   /// C, ascending: what sources call each cell; empty: 0 to C - 1. Cells with the same corners, in
   /// one order, may share a number, as the triangles of a polygon do.
