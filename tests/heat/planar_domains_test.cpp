@@ -107,6 +107,26 @@ PolygonMesh honeycomb() {
   return out;
 }
 
+/// Chevrons five times as long as high: their virtual vertices lie beside a corner.
+PolygonMesh chevrons() {
+  constexpr Index kSide = 40;
+  PolygonMesh out = quads(kSide, 0);
+  for (Index v = 0; v < std::ssize(out.positions); ++v) {
+    const Index column = v / (kSide + 1), row = v % (kSide + 1);
+    out.positions[v] = Vec3(5 * column, row + column % 2, 0);
+  }
+  out.start = {0};
+  out.corners.clear();
+  for (Index i = 0; i < kSide; i += 2) {
+    for (Index j = 0; j < kSide; ++j) {
+      const Index a = i * (kSide + 1) + j, b = a + kSide + 1, c = b + kSide + 1;
+      out.corners.insert(out.corners.end(), {a, b, c, c + 1, b + 1, a + 1});
+      out.start.push_back(std::ssize(out.corners));
+    }
+  }
+  return out;
+}
+
 struct PolygonCase {
   PolygonMesh (*mesh)();
   double most;  ///< error, in errors of their triangles; users ask for no more than 1.3
@@ -163,9 +183,8 @@ TEST(Polygons, OfLongFacesAreNearExactAsWell) {
 
 INSTANTIATE_TEST_SUITE_P(Shapes, Polygons,
                          testing::Values(PolygonCase{[] { return quad_torus(); }, 1.3},
-                                         PolygonCase{honeycomb, 1.3},
-                                         // One gradient in place of six triangles'.
-                                         PolygonCase{corner_tiles, 2.5}));
+                                         PolygonCase{honeycomb, 1.3}, PolygonCase{chevrons, 1.3},
+                                         PolygonCase{corner_tiles, 1.3}));
 
 TEST(Domains, PolygonsWithTooManyCornersAreOneLine) {
   PolygonMesh disc{{}, {0, 1200}, {}};
@@ -197,6 +216,20 @@ TEST(Domains, VirtualVerticesThatDoNotFitAreOneLine) {
     const auto valid = check_cells(cells);
     ASSERT_FALSE(valid);
     EXPECT_NE(valid.error().message.find("virtual vertices"), std::string::npos);
+  }
+}
+
+TEST(Domains, SharesThatAreNoPartsOfOneAreOneLine) {
+  const CellComplex whole = *cells_of(quads(4, 0));
+  CellComplex few = whole, more = whole, negative = whole;
+  few.shares.pop_back();
+  more.shares[5] += 0.5;
+  negative.shares[0] -= 1;
+  negative.shares[1] += 1;
+  for (const CellComplex& cells : {few, more, negative}) {
+    const auto valid = check_cells(cells);
+    ASSERT_FALSE(valid);
+    EXPECT_NE(valid.error().message.find("shares"), std::string::npos);
   }
 }
 
