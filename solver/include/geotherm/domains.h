@@ -30,7 +30,7 @@ struct CellComplex {
   Index vertices = 0;               ///< V
   int dimension = 0;                ///< D: 1, 2 or 3
   std::vector<std::int64_t> start;  ///< C + 1: cell c has the corners start[c] to start[c + 1]
-  std::vector<Index> corners;       ///< S, of all cells, one after the other; a cell's are different
+  std::vector<Index> corners;       ///< S, one cell after the other; a cell's are different
   std::vector<double> gradients;    ///< D to a corner: of its hat function, 1 / model units
   std::vector<double> measures;     ///< C: lengths, areas or volumes, > 0
   std::vector<double> shares;       ///< S: of the measure, to each corner; empty: all are equal
