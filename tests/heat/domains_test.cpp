@@ -174,8 +174,7 @@ TEST(Domains, DiffusionTimesOfTetsFollowTheThicknessInWidthsSlow) {
     const auto cube = HeatMethod::build(shared(cells_of(stretched_box(n, 1))));
     ASSERT_TRUE(cube);
     const double width = std::sqrt(cube->t() / cube->relative_t());
-    const double thickness = 0.5 * std::pow(0.5 / 0.6, 2);  // 3 V / A, less in long bodies
-    const double expected = std::pow(thickness / width / 13, 2.0 / 3);
+    const double expected = std::pow(0.5 * std::pow(0.5 / 0.6, 2) / width / 13, 2.0 / 3);
     EXPECT_NEAR(cube->grading(), expected, 2 * kOfBorder * expected) << n;
   }
   const auto rod = HeatMethod::build(shared(cells_of(stretched_box(12, 8))));
