@@ -174,7 +174,7 @@ class PolygonFlipper {
     return fans_.is_not_manifold[part] != 0;
   }
 
-  /// By the mean distances between two corners of the cells.
+  /// By the mean sides of the triangles.
   void measure_widths(FlippedPolygons& out) const {
     const std::vector<char> touched = touched_triangles();
     out.mean_width.assign(static_cast<std::size_t>(out.parts.count), 0.0);

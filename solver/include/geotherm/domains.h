@@ -85,7 +85,7 @@ Result<CellComplex> cells_of(const Graph& graph);
 /// number in the mesh. HeatMethod flips those that are far from Delaunay.
 /// Left out are faces without area, with fewer than three corners or with one twice. Errors
 /// (kBadInput, with the number): a corner out of range, a coordinate that is not finite, over 256
-/// corners in a face, no face that can be used. Cost: 2 k^2 numbers, k^3 steps for k corners.
+/// corners in a face, no face that can be used. Cost: 3 k^2 numbers, k^3 steps for k corners.
 Result<CellComplex> cells_of(const PolygonMesh& mesh);
 
 /// Samples in a box, such as the pixels of an image or the voxels of a scan. Its vertices are the
