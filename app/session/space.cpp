@@ -85,7 +85,7 @@ PolygonSpace::PolygonSpace(std::shared_ptr<const CellComplex> cells,
                            std::shared_ptr<const TriangleMesh> triangles,
                            std::vector<Index> cells_of_faces, std::vector<char> used)
     : Space({"polygons", "polygon", "polygons", "polygon mesh", "triangulation",
-             "mean distance of two corners"},
+             "mean side of the triangles"},
             std::move(used), MethodKind::kWavefront),
       cells_(std::move(cells)),
       triangles_(std::move(triangles)),
