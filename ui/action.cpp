@@ -249,8 +249,8 @@ bool is_possible(const Frame& frame, Action action) {
     case Action::kClearSources:
       return !frame.state().sources.empty();
     case Action::kBoundarySource:
-      return frame.model() && (frame.model()->model.space ||
-                               (frame.model()->mesh && frame.model()->mesh->boundary_edges > 0));
+      return frame.model() &&
+             (frame.model()->model.space || (frame.mesh() && frame.mesh()->boundary_edges > 0));
     case Action::kSaveDistances:
     case Action::kSaveFigures:
       return frame.answer() != nullptr;

@@ -35,12 +35,12 @@ bool is_over_canvas(const Frame& frame) {
 
 /// The surface under a pixel, on the model that is shown; nothing before it is described.
 std::optional<SurfacePoint> surface_at(const Frame& frame, float x, float y) {
-  if (!frame.model() || !frame.model()->mesh) return std::nullopt;
+  const MeshReport* const mesh = frame.mesh();
+  if (!mesh) return std::nullopt;
   auto point = frame.canvas.surface_at(x, y);
-  const MeshReport& mesh = *frame.model()->mesh;
   // The picture may be one frame behind.
-  const bool fits = point && (point->is_vertex() ? point->vertex < mesh.vertices
-                                                 : point->face >= 0 && point->face < mesh.faces);
+  const bool fits = point && (point->is_vertex() ? point->vertex < mesh->vertices
+                                                 : point->face >= 0 && point->face < mesh->faces);
   return fits ? point : std::nullopt;
 }
 
@@ -53,10 +53,10 @@ Vec3 rounded(const Vec3& position, const Vec3& size) {
 }
 
 std::optional<InsidePoint> inside_at(const Frame& frame, float x, float y) {
-  if (!frame.model() || !frame.model()->mesh) return std::nullopt;
+  const MeshReport* const mesh = frame.mesh();
+  if (!mesh) return std::nullopt;
   auto inside = frame.canvas.inside_at(x, y);
-  const MeshReport& mesh = *frame.model()->mesh;
-  if (inside) inside->position = rounded(inside->position, mesh.box_max - mesh.box_min);
+  if (inside) inside->position = rounded(inside->position, mesh->box_max - mesh->box_min);
   return inside;
 }
 
@@ -79,7 +79,7 @@ std::optional<Front> front_at(const Frame& frame, float x, float y) {
 bool is_hidden(const Frame& frame, const Vec3& place, std::array<float, 2> seen_at) {
   const auto front = front_at(frame, seen_at[0], seen_at[1]);
   if (!front) return false;
-  const Vec3 size = frame.model()->mesh->box_max - frame.model()->mesh->box_min;
+  const Vec3 size = frame.mesh()->box_max - frame.mesh()->box_min;
   return (front->position - place).norm() > kHidden * size.norm();
 }
 

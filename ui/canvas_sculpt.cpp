@@ -25,16 +25,16 @@ constexpr int kDigits = 4;  ///< of a radius: more is not seen
 
 /// Model units. Precondition: the model is described.
 double radius_of(const Frame& frame) {
-  const MeshReport& mesh = *frame.model()->mesh;
+  const MeshReport& mesh = *frame.mesh();
   const double size = (mesh.box_max - mesh.box_min).norm();
   const auto text = app::significant(double{frame.ui.sculpt.radius} * size, kDigits);
   return app::number_in<double>(text).value_or(size);
 }
 
 std::optional<app::FacePoint> face_point_at(const Frame& frame, float x, float y) {
-  if (!frame.model()->mesh) return std::nullopt;
+  if (!frame.mesh()) return std::nullopt;
   const auto point = frame.canvas.surface_at(x, y);
-  const bool fits = point && !point->is_vertex() && point->face < frame.model()->mesh->faces;
+  const bool fits = point && !point->is_vertex() && point->face < frame.mesh()->faces;
   return fits ? std::optional(short_point(*point)) : std::nullopt;
 }
 
@@ -104,7 +104,7 @@ void SculptStroke::go_on(Frame& frame, float x, float y) {
 }
 
 float sculpt_ring(const Frame& frame, const std::optional<SurfacePoint>& hovered) {
-  if (!hovered || hovered->is_vertex() || !frame.model() || !frame.model()->mesh) return 0;
+  if (!hovered || hovered->is_vertex() || !frame.mesh()) return 0;
   return seen_radius(frame, {hovered->face, hovered->weights}, radius_of(frame));
 }
 

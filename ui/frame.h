@@ -119,6 +119,8 @@ struct Frame {
   const app::Explored& explored() const { return session.explored(); }
   /// The model that is shown; null: none.
   const app::ExploredModel* model() const { return session.explored().model.get(); }
+  /// What is said of its mesh; null where none is open, and before it is described.
+  const MeshReport* mesh() const { return model() && model()->mesh ? &*model()->mesh : nullptr; }
   const app::Answer* answer() const {
     return app::shown_answer(session.explored(), session.state().shown);
   }

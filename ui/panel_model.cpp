@@ -169,7 +169,7 @@ void draw_figures(Frame& frame, const app::Answer& answer) {
                warn(quality.steep_edges > 0));
   }
   if (answer.method->heat() == nullptr) return;
-  const bool compact = frame.answer()->options.precision == Precision::kCompact;
+  const bool compact = answer.options.precision == Precision::kCompact;
   const double large = compact ? kLargeCompactResidual : kLargeResidual;
   draw_value(frame, "heat residual", app::significant(quality.heat_residual, 2), "",
              "|M u \u2212 b| / |b| of the heat step: how exactly the linear system was solved.",

@@ -38,7 +38,7 @@ std::optional<double> time_now(const Frame& frame) {
   const app::Answer* answer = frame.answer();
   const HeatMethod* const heat = answer ? answer->method->heat() : nullptr;
   if (frame.model()->model.space) return app::time_in_volume(options.time_step, heat);
-  const auto& mesh = frame.model()->mesh;
+  const MeshReport* const mesh = frame.mesh();
   if (!mesh || mesh->components != 1) return {};
   if (heat && heat->grading() != 1) return {};  // only a set-up tells
   return app::diffusion_time(options.time_step, *mesh);
