@@ -178,8 +178,8 @@ Result<void> Explorer::move(const ExploreRequest& request, const Progress& progr
     if (!bent) return bent.error();
     mesh = std::make_shared<const TriangleMesh>(*std::move(bent));
   }
-  inspected_ = *mesh == read_->model.mesh;
-  if (inspected_) {
+  const bool is_as_read = *mesh == read_->model.mesh;
+  if (is_as_read) {
     model_ = read_;
     solver_->set_summary(model_->mesh);
   } else {
@@ -188,6 +188,7 @@ Result<void> Explorer::move(const ExploreRequest& request, const Progress& progr
     if (!moved) return moved.error();
     model_ = *std::move(moved);
   }
+  inspected_ = is_as_read;
   solver_->move(model_->model);
   pose_ = pose;
   return {};
@@ -315,11 +316,9 @@ Result<Explored> Explorer::work_out(const ExploreRequest& request, const Progres
 Result<Explored> Explorer::explore(const ExploreRequest& request, const Progress& progress,
                                    const Early& early) try {
   if (auto loaded = load(request, progress, early); !loaded) return loaded.error();
-  if (auto moved = move(request, progress); !moved) return moved.error();
-  if (request.quality) {
-    if (auto done = inspect(progress); !done) return done.error();
-  }
-  Result<Explored> explored = work_out(request, progress);
+  auto placed = move(request, progress);
+  if (placed && request.quality) placed = inspect(progress);
+  Result<Explored> explored = placed ? work_out(request, progress) : placed.error();
   const bool cancelled = !explored && explored.error().code == ErrorCode::kCancelled;
   if (!is_whole_ && request.quality && !cancelled) {
     if (auto done = make_whole(explored, progress, early); !done) return done.error();

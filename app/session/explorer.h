@@ -61,8 +61,8 @@ struct ExploreRequest {
 /// a time.
 class Explorer {
  public:
-  /// Receives partial results: the model before it is solved on, lit and can be picked on; answers
-  /// before that, too, and before the centre of their sources and the check.
+  /// Receives partial results: the model before it is solved on; answers before the model is
+  /// described, lit and can be picked on, and before the centre of their sources and the check.
   using Early = std::function<void(Explored)>;
 
   /// Errors: those of load_model, resolve_sources and ModelSolver; kCancelled.
@@ -111,8 +111,8 @@ class Explorer {
   std::optional<Sequence> sequence_;            ///< of `read_`
   std::shared_ptr<const TriangleMesh> carved_;  ///< what `sculptor_` began with
   std::optional<Sculptor> sculptor_;            ///< from the first stroke on
-  bool is_whole_ = true;                        ///< `read_` is lit and can be picked on
-  bool inspected_ = true;                       ///< ExploredModel::mesh is of `model_` as it is
+  bool is_whole_ = true;                        ///< `read_` is described, lit and can be picked on
+  bool inspected_ = true;                       ///< `model_` is described as it is, or is `read_`
   std::string model_text_;
   ModelReading reading_;
   std::uint64_t opening_ = 0;

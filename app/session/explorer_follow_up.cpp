@@ -74,9 +74,9 @@ Result<void> Explorer::make_whole(Result<Explored>& explored, const Progress& pr
   read_ = std::move(whole);
   if (explored) {
     explored->model = model_;
-  } else if (model_ == read_) {  // without an answer, it is seen all the same
+  } else {  // without an answer, it is seen all the same, as load() has shown it
     Explored model;
-    model.model = model_;
+    model.model = read_;
     early(std::move(model));
   }
   return {};

@@ -5,6 +5,7 @@
 #include <numeric>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "geotherm/domains.h"
 #include "solver/core/text.h"
@@ -111,6 +112,21 @@ Result<void> check_cell(const CellComplex& cells, Index cell) {
   return {};
 }
 
+/// Every corner of a cell has a share of some cell, without which its row would have no mass.
+Result<void> check_masses(const CellComplex& cells) {
+  if (cells.shares.empty()) return {};
+  std::vector<char> has_mass(static_cast<std::size_t>(cells.vertices), 0);
+  for (std::size_t k = 0; k < cells.corners.size(); ++k) {
+    if (cells.shares[k] > 0) has_mass[cells.corners[k]] = 1;
+  }
+  for (const Index v : cells.corners) {
+    if (has_mass[v]) continue;
+    return bad_cells("vertex " + std::to_string(v) +
+                     " has the share 0 of each of its cells; it needs one above 0");
+  }
+  return {};
+}
+
 }  // namespace
 
 Result<void> check_cells(const CellComplex& cells) {
@@ -118,6 +134,7 @@ Result<void> check_cells(const CellComplex& cells) {
   for (Index c = 0; c < cells.cell_count(); ++c) {
     if (const auto valid = check_cell(cells, c); !valid) return valid;
   }
+  if (const auto valid = check_masses(cells); !valid) return valid;
   for (std::size_t v = 0; v < cells.positions.size(); ++v) {
     if (!cells.positions[v].allFinite()) {
       return bad_cells("vertex " + std::to_string(v) + " has a coordinate that is not finite");

@@ -104,9 +104,7 @@ class CellMeshBuilder {
     for (Index c = 0; c < out_.cell_count(); ++c) {
       const auto corners = out_.corners_of(c);
       for (std::size_t k = 0; k < corners.size(); ++k) {
-        out_.mass[corners[k]] += out_.shares.empty()
-                                     ? out_.measures[c] / static_cast<double>(corners.size())
-                                     : out_.measures[c] * out_.shares[out_.start[c] + k];
+        out_.mass[corners[k]] += out_.measures[c] * share(c, static_cast<std::ptrdiff_t>(k));
       }
     }
   }
@@ -180,24 +178,25 @@ class CellMeshBuilder {
         entries[place] += product;
         if (shared != nullptr) {
           const double width = out_.widths[c] / out_.mean_width[out_.components.of[i]];
-          const double share =
+          const double consistent =
               std::clamp((kLumpedWidth - width) / (kLumpedWidth - kConsistentWidth), 0.0, 1.0);
-          shared[place] += share * out_.measures[c] * consistent_mass(c, own, k);
+          shared[place] += consistent * out_.measures[c] * consistent_mass(c, own, k);
         }
       }
     }
   }
 
-  /// Of two corners of a cell with the measure 1: where its shares are equal that of hat functions
-  /// on a simplex, and with others of three corners in proportion to both.
+  /// Corner k's share of the measure of cell c.
+  double share(Index c, std::ptrdiff_t k) const {
+    if (out_.shares.empty()) return 1 / static_cast<double>(out_.corners_of(c).size());
+    return out_.shares[static_cast<std::size_t>(out_.start[c] + k)];
+  }
+
+  /// Of two corners of a plane cell with the measure 1, in proportion to the shares of both: what
+  /// hat functions give the corners of a triangle, 1/12 for shares of 1/3.
   double consistent_mass(Index c, std::ptrdiff_t i, std::ptrdiff_t j) const {
-    if (out_.shares.empty()) {
-      const auto count = static_cast<double>(out_.corners_of(c).size());
-      return 1 / (count * (count + 1));
-    }
-    constexpr double kOfTriangle = 0.75;  // 1/12 for shares of 1/3
-    const double* const shares = out_.shares.data() + out_.start[c];
-    return kOfTriangle * shares[i] * shares[j];
+    constexpr double kOfTriangle = 0.75;
+    return kOfTriangle * share(c, i) * share(c, j);
   }
 
   const CellComplex& cells_;

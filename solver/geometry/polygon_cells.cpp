@@ -72,9 +72,7 @@ Vec3 virtual_vertex(std::span<const Vec3> corners) {
 /// value is the mean of the corners' that makes it harmonic on these triangles. Or a cell for each
 /// triangle that it was cut into.
 struct PolygonElement {
-  /// Mean side of the triangles that triangulated() cuts it into; of those of both ways to cut four
-  /// corners.
-  double width = 0;
+  double width = 0;  ///< mean side of the triangles that it was cut into, or mean_side_of_cuts()
   /// The virtual vertex; not finite: it was cut.
   Vec3 apex = Vec3::Constant(std::numeric_limits<double>::quiet_NaN());
   std::vector<double> areas;                ///< of each triangle; none: the face has no area
@@ -143,6 +141,20 @@ std::vector<Face> cut_into_triangles(const std::vector<Vec3>& positions,
   return out;
 }
 
+/// Mean side of the triangles when all diagonals from one corner cut the face, the mean of all its
+/// corners: the same whichever corner its list begins with.
+double mean_side_of_cuts(const std::vector<Vec3>& at) {
+  const std::size_t k = at.size();
+  double sides = 0, all = 0;
+  for (std::size_t i = 0; i < k; ++i) {
+    sides += (at[(i + 1) % k] - at[i]).norm();
+    for (std::size_t j = 0; j < i; ++j) all += (at[i] - at[j]).norm();
+  }
+  // A diagonal is in two of the k ways to cut, and is a side of two triangles in each.
+  const auto count = static_cast<double>(k);
+  return (sides + 4 * (all - sides) / count) / (3 * (count - 2));
+}
+
 /// Preconditions: three corners or more, in range.
 PolygonElement polygon_element(const std::vector<Vec3>& positions, std::span<const Index> face,
                                io::PolygonCutter& cutter) {
@@ -168,19 +180,14 @@ PolygonElement polygon_element(const std::vector<Vec3>& positions, std::span<con
   };
   const Vec3 apex = k == 3 ? at[2] : virtual_vertex(at);
   const bool cut = k == 3 || !is_fan(at, apex);
-  out.width = unit;  // of three and four corners it is that of their triangles
-  std::vector<Face> triangles;
-  if (cut || k > 4) {
-    triangles = cut_into_triangles(positions, face, at, cutter);
-    double sum = 0;
-    for (const auto& [a, b, c] : triangles) {
-      for (const double side : side_lengths(at[a], at[b], at[c])) sum += side;
-    }
-    out.width *= sum / static_cast<double>(3 * triangles.size());
-  }
   if (cut) {
-    double area = 0;
-    for (const auto& [a, b, c] : triangles) area += (at[b] - at[a]).cross(at[c] - at[a]).norm() / 2;
+    const std::vector<Face> triangles = cut_into_triangles(positions, face, at, cutter);
+    double area = 0, sides = 0;
+    for (const auto& [a, b, c] : triangles) {
+      area += (at[b] - at[a]).cross(at[c] - at[a]).norm() / 2;
+      for (const double side : side_lengths(at[a], at[b], at[c])) sides += side;
+    }
+    out.width = unit * sides / static_cast<double>(3 * triangles.size());
     // Flatter than this, rounding decides where the plane lies.
     constexpr double kFlat = 1e-12;
     if (!(area > kFlat) || !std::isfinite(area)) return out;
@@ -194,6 +201,7 @@ PolygonElement polygon_element(const std::vector<Vec3>& positions, std::span<con
     }
     return out;
   }
+  out.width = unit * mean_side_of_cuts(at);
   out.apex = positions[face[0]] + unit * apex;
   std::vector<FanTriangle> fan;
   Eigen::VectorXd pull = Eigen::VectorXd::Zero(count);

@@ -143,8 +143,9 @@ struct HandedOut {
   Result<Explored> last;
 };
 
-HandedOut handed_out(const std::string& model, const char* source) {
+HandedOut handed_out(const std::string& model, const char* source, const Pose& pose = {}) {
   ExploreRequest request;
+  request.pose = pose;
   request.model = model;
   request.sources = {*parse_source(source)};
   Explorer explorer;
@@ -159,7 +160,11 @@ TEST_F(SessionMesh, NeitherThePictureNorDistancesWaitForLight) {
   ASSERT_EQ(early.size(), 2U);
   EXPECT_FALSE(early[0].a) << "the picture comes first,";
   EXPECT_TRUE(early[1].a && !early[1].shown) << "then there are distances";
-  for (const Explored& part : early) EXPECT_TRUE(part.model->base->openness.empty());
+  for (const Explored& part : early) {
+    EXPECT_TRUE(part.model->base->openness.empty());
+    EXPECT_FALSE(part.model->mesh) << "what is said of the mesh comes after them";
+  }
+  EXPECT_TRUE(last->model->mesh);
   EXPECT_EQ(last->a, early[1].a);
   EXPECT_TRUE(last->shown && last->model->rays);
   const PictureData whole = picture_of(*last->model->model.mesh);
@@ -178,6 +183,25 @@ TEST_F(SessionMesh, AModelWhoseSourcesAreNotFoundIsLitAndCanBePickedOn) {
   run({"open " + small_model()});
   const auto opens = [](const LogLine& line) { return line.text.starts_with("opened "); };
   EXPECT_EQ(std::ranges::count_if(session.log(), opens), 1) << "whatever comes of it later";
+}
+
+TEST_F(SessionMesh, AModelWhoseFramesAreMissingIsDescribedAndCanBePickedOn) {
+  const auto [early, last] = handed_out(small_model(), "5", {folder() + "none*.ply", 0, {}});
+  ASSERT_FALSE(last);
+  ASSERT_EQ(early.size(), 2U);
+  EXPECT_FALSE(early[0].model->mesh);
+  EXPECT_TRUE(early[1].model->mesh && early[1].model->rays);
+  EXPECT_EQ(early[1].model->model.mesh, early[0].model->model.mesh);
+}
+
+TEST_F(SessionMesh, WhatIsWrongWithAModelIsSaidOnce) {
+  run({"open " + cracked("c.obj"), "source set 0", "source set 1", "method wavefront"});
+  ASSERT_TRUE(session.explored().model->mesh);
+  ASSERT_FALSE(session.explored().model->warnings.empty());
+  for (const Warning& warning : session.explored().model->warnings) {
+    const auto says = [&](const LogLine& line) { return line.text.find(warning.message) == 0; };
+    EXPECT_EQ(std::ranges::count_if(session.log(), says), 1) << warning.message;
+  }
 }
 
 }  // namespace

@@ -118,6 +118,65 @@ SourceInside source_inside(const PolygonMesh& mesh, const CellComplex& cells, In
   return out;
 }
 
+/// A hexagon without symmetry, its list beginning with corner `first`.
+PolygonMesh hexagon_from(Index first) {
+  PolygonMesh out{
+      {{0, 0, 0}, {4, -1, 0}, {7, 1, 0}, {7.5, 2, 0}, {3, 3, 0}, {-1, 2, 0}}, {0, 6}, {}};
+  for (Index k = 0; k < 6; ++k) out.corners.push_back((first + k) % 6);
+  return out;
+}
+
+TEST(CutPolygons, AreAsWideWhereverTheirListsBegin) {
+  // Worked out from the lengths: diagonals from one corner, in the mean over all six.
+  const auto& at = hexagon_from(0).positions;
+  double sides = 0;
+  for (std::size_t from = 0; from < 6; ++from) {
+    for (std::size_t k = 2; k < 6; ++k) {
+      const Vec3 &a = at[from], &b = at[(from + k - 1) % 6], &c = at[(from + k) % 6];
+      sides += (a - b).norm() + (b - c).norm() + (c - a).norm();
+    }
+  }
+  for (Index first = 0; first < 6; ++first) {
+    const CellComplex cells = *cells_of(hexagon_from(first));
+    ASSERT_EQ(count_cut(cells), 0);
+    EXPECT_NEAR(cells.widths[0], sides / (6 * 4 * 3), 1e-12);
+  }
+}
+
+TEST(CutPolygons, WithEqualSharesAreThoseWithout) {
+  CellComplex cells = *cells_of(moved_quads(12, 1, 0.2));
+  cells.virtual_vertices.clear();
+  const auto distances = [&cells] {
+    return HeatMethod::build(std::make_shared<const CellComplex>(cells))
+        ->solve(SourceSet::of_vertices({30}))
+        ->distances;
+  };
+  cells.shares.assign(cells.corners.size(), 0.25);
+  const auto with = distances();
+  cells.shares.clear();
+  EXPECT_EQ(with, distances());
+}
+
+TEST(CutPolygons, AreRefusedWithSharesThatAreNone) {
+  const CellComplex good = *cells_of(moved_quads(2, 1, 0));
+  const auto says = [](const CellComplex& cells) { return check_cells(cells).error().message; };
+  CellComplex cells = good;
+  cells.shares.pop_back();
+  EXPECT_NE(says(cells).find("shares, and"), std::string::npos);
+  cells = good;
+  cells.shares[0] += 0.5;
+  EXPECT_NE(says(cells).find("sum to 1.5"), std::string::npos);
+  cells = good;
+  for (Index c = 0; c < cells.cell_count(); ++c) {  // vertex 0 gives what it has to the next corner
+    const auto corners = cells.corners_of(c);
+    const auto own = std::ranges::find(corners, 0) - corners.begin();
+    if (own == std::ssize(corners)) continue;
+    const auto begin = cells.shares.begin() + cells.start[c];
+    begin[(own + 1) % std::ssize(corners)] += std::exchange(begin[own], 0);
+  }
+  EXPECT_NE(says(cells).find("vertex 0 has the share 0"), std::string::npos);
+}
+
 TEST(CutPolygons, TakeSourcesInside) {
   // Somewhere in one of its triangles, which may be long and lean.
   std::mt19937 random(5);
