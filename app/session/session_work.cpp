@@ -147,6 +147,8 @@ bool Session::State::take() {
         continue;
       }
       if (take_more_of_model(early->explored.model)) continue;
+      // An answer on a frame or on strokes stays when the next one fails.
+      if (explored.a && is_same_surface(*explored.model, *early->explored.model)) continue;
       const std::uint64_t version = explored.version;
       explored = std::move(early->explored);
       explored.version = version + 1;
