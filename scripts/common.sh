@@ -26,7 +26,9 @@ build() {
   local preset=$1 target=${2:-all} log
   if command -v ccache >/dev/null; then
     export CMAKE_CXX_COMPILER_LAUNCHER=ccache
-    export CCACHE_SLOPPINESS=pch_defines,time_macros  # what precompiled headers ask for
+    # What precompiled headers ask for. Without CCACHE_DEPEND a header whose comments alone changed
+    # counts as the same, and the precompiled one differs from the file that #pragma once compares.
+    export CCACHE_SLOPPINESS=pch_defines,time_macros CCACHE_DEPEND=1
   fi
   say "building $preset${2:+ ($2)} in build/$preset"
   mkdir -p "$root/build"
