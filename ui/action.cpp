@@ -206,7 +206,13 @@ void show_figures(Frame& frame, const char* section) {
 void perform(Frame& frame, Action action) {
   if (!is_possible(frame, action)) return;
   if (action == Action::kCompare) show_figures(frame, kCompareSection);
-  if (auto command = command_of(frame, action)) return frame.send(*std::move(command));
+  if (auto command = command_of(frame, action)) {
+    frame.send(*std::move(command));
+    // B has become A, which can be changed: it stays in sight.
+    const bool shows_b = frame.state().shown == app::Shown::kB;
+    if (action == Action::kSwap && shows_b) frame.send(app::command::Show{app::Shown::kA});
+    return;
+  }
   if (const auto purpose = find_in(kPurposes, action))
     return frame.ui.dialog.ask(*purpose, frame.state());
   turn_switch(frame, action);

@@ -150,6 +150,13 @@ void draw_buttons(Frame& frame, Notice& notice) {
 
 void draw_notices(Frame& frame) {
   auto& notices = frame.ui.notices;
+  for (Notice& notice : notices) {  // an undo brings sources back, too
+    if (notice.sources != frame.state().sources) {
+      notice.replaced = true;
+    } else if (notice.replaced) {
+      notice.until = 0;
+    }
+  }
   std::erase_if(notices, [](const Notice& notice) { return notice.until < ImGui::GetTime(); });
   const Rect& canvas = frame.ui.places.canvas;
   const float width = std::min(frame.px(460), canvas.width - frame.px(24));
@@ -188,7 +195,7 @@ void take_notices(Frame& frame) {
   if (taken > log.size()) taken = log.size() - std::min<std::size_t>(1, log.size());
   for (; taken < log.size(); ++taken) {
     const app::LogLine& line = log[taken];
-    if (line.kind != app::LogLine::Kind::kError) continue;
+    if (line.kind != app::LogLine::Kind::kError && !line.has_written) continue;
     auto& notices = frame.ui.notices;
     std::string text = sentence(line.text, line.hint);
     std::erase_if(notices, [&](const Notice& notice) { return notice.text == text; });

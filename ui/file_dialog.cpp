@@ -6,7 +6,9 @@
 #include <system_error>
 #include <utility>
 
+#include "app/picture/picture_text.h"
 #include "app/session/model.h"
+#include "app/session/script.h"
 #include "ui/frame.h"
 
 namespace geotherm::ui {
@@ -76,8 +78,8 @@ namespace {
 
 constexpr std::string_view kPictures[] = {".png", ".pdf", ".svg"};
 constexpr std::string_view kDistances[] = {".csv", ".npy", ".ply", ".vtp", ".vtu", ".vti"};
-constexpr std::string_view kSessions[] = {kSessionExtension};
-constexpr std::string_view kScripts[] = {kSessionExtension, ".txt"};
+constexpr std::string_view kSessions[] = {app::kSessionExtension};
+constexpr std::string_view kScripts[] = {app::kSessionExtension, ".txt"};
 constexpr std::string_view kMeshes[] = {".obj", ".ply", ".off", ".stl"};
 constexpr std::string_view kSequences[] = {".npy", ".pc2", ".mdd", ".glb", ".gltf"};
 constexpr std::string_view kFigures[] = {".json"};
@@ -92,7 +94,7 @@ const FileTask& file_task(FilePurpose purpose) {
       {FilePurpose::kSaveDistances, "Save the distances", "Save", true, kDistances},
       {FilePurpose::kSaveSession, "Save the session", "Save", true, kSessions},
       {FilePurpose::kSaveLog, "Save the log of commands", "Save", true, kSessions},
-      {FilePurpose::kSaveFigures, "Save the figures", "Save", true, kFigures},
+      {FilePurpose::kSaveFigures, "Save the report", "Save", true, kFigures},
       {FilePurpose::kSaveMesh, "Save the mesh", "Save", true, kMeshes},
       {FilePurpose::kOpenSequence, "Open a sequence", "Open", false, kSequences},
   };
@@ -117,8 +119,7 @@ void FileDialog::ask(FilePurpose purpose, const app::ViewerState& state) {
   error_.clear();
   const FileTask& task = file_task(purpose);
   name_ = task.saves ? suggested_name(state.model, task) : "";
-  if (width_ == 0) width_ = state.picture.width;
-  if (height_ == 0) height_ = state.picture.height;
+  if (size_.empty()) size_ = app::size_text(state.picture);
   std::error_code error;
   if (folder_.empty()) folder_ = fs::current_path(error);
   if (folder_.empty()) folder_ = "/";
@@ -141,6 +142,8 @@ void FileDialog::enter(const fs::path& folder) {
   list();
   error_ = why;
 }
+
+bool FileDialog::is_sized() const { return purpose_ == FilePurpose::kSavePicture && !as_shown_; }
 
 bool FileDialog::is_of_pixels() const {
   return !has_extension(name_, std::span(file_task(purpose_).extensions).subspan(1));
@@ -165,6 +168,10 @@ void FileDialog::accept(Frame& frame) {
     error_ = "there is no folder " + file.parent_path().string();
     return;
   }
+  if (const auto size = app::parse_size(size_); is_sized() && !size) {
+    error_ = sentence(size.error());
+    return;
+  }
   if (fs::exists(file, ignored) && !question_) {
     question_ = true;
     return;
@@ -182,11 +189,12 @@ void FileDialog::finish(Frame& frame, const fs::path& file) {
     case FilePurpose::kOpenSession:
       frame.ui.write_question.send(frame, command::Run{path});
       break;
-    case FilePurpose::kSavePicture:
-      frame.send(as_shown_
-                     ? command::SavePicture{path, 0, 0, panels_ && is_of_pixels()}
-                     : command::SavePicture{path, width_, height_, panels_ && is_of_pixels()});
+    case FilePurpose::kSavePicture: {
+      command::SavePicture save{path, {}, panels_ && is_of_pixels()};
+      if (is_sized()) save.size = *parse_size(size_);
+      frame.send(std::move(save));
       break;
+    }
     case FilePurpose::kSaveDistances:
       frame.send(command::SaveDistances{path});
       break;

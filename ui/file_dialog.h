@@ -49,9 +49,6 @@ enum class FilePurpose {
   kOpenSequence,
 };
 
-/// The extension of session files, which are scripts of commands.
-inline constexpr std::string_view kSessionExtension = ".geotherm";
-
 /// Asks for a file and sends the command that reads or writes it. One at a time, over all else.
 class FileDialog {
  public:
@@ -70,6 +67,8 @@ class FileDialog {
   void draw_buttons(Frame& frame);
   void draw_question(Frame& frame);
   float height_below(const Frame& frame) const;
+  /// Whether a size is asked for.
+  bool is_sized() const;
   /// Whether the file that is named will be a picture of pixels, on which there can be panels.
   bool is_of_pixels() const;
   void accept(Frame& frame);
@@ -84,7 +83,7 @@ class FileDialog {
   bool all_files_ = false;
   bool question_ = false;    ///< whether to replace a file
   bool take_focus_ = false;  ///< of the field for the name
-  int width_ = 0, height_ = 0;
+  std::string size_;         ///< of a picture
   bool as_shown_ = true, panels_ = false;
 };
 

@@ -2,7 +2,7 @@
 #include <imgui.h>
 #include <imgui_stdlib.h>
 
-#include <algorithm>
+#include <cfloat>
 
 #include "app/session/progress.h"
 #include "app/text/text.h"
@@ -15,7 +15,6 @@ namespace geotherm::ui {
 namespace {
 
 constexpr const char* kName = "files";
-constexpr int kLargestSide = 8192;  ///< of a picture
 
 }  // namespace
 
@@ -104,7 +103,11 @@ void FileDialog::draw_name(Frame& frame) {
 
 void FileDialog::draw_formats(Frame& frame) {
   const FileTask& task = file_task(purpose_);
-  draw_label(frame, task.saves ? "format" : "files");
+  if (task.saves) {
+    draw_label(frame, "format");
+  } else {
+    draw_label(frame, "files", "Listed are " + app::joined(task.extensions, " "));
+  }
   for (const std::string_view extension : task.extensions) {
     if (!task.saves) break;
     const std::string text(extension);
@@ -115,32 +118,22 @@ void FileDialog::draw_formats(Frame& frame) {
     ImGui::SameLine();
   }
   if (draw_checkbox(frame, "all files", "list all files", all_files_)) list();
-  if (task.saves) return;
-  ImGui::SameLine(0, frame.px(16));
-  ImGui::TextWrapped("%s", app::joined(task.extensions, " ").c_str());
 }
 
 void FileDialog::draw_picture_options(Frame& frame) {
   draw_label(frame, "size");
-  const auto draw_side = [&](const char* key, int& side) {
-    ImGui::BeginDisabled(as_shown_);
-    ImGui::SetNextItemWidth(frame.px(70));
-    ImGui::InputInt((std::string("##") + key).c_str(), &side, 0, 0);
-    frame.mark(key);
-    ImGui::EndDisabled();
-    side = std::clamp(side, 1, kLargestSide);
-  };
-  draw_checkbox(frame, "as shown", "as shown", as_shown_);
-  ImGui::SameLine(0, frame.px(16));
-  draw_side("width", width_);
-  ImGui::SameLine();
-  ImGui::TextUnformatted("\u00d7");
-  ImGui::SameLine();
-  draw_side("height", height_);
-  ImGui::SameLine(0, frame.px(16));
   ImGui::BeginDisabled(!is_of_pixels());
   draw_checkbox(frame, "panels", "with the panels", panels_);
   ImGui::EndDisabled();
+  ImGui::SameLine(0, frame.px(16));
+  draw_checkbox(frame, "as shown", "as shown", as_shown_);
+  if (as_shown_) return;
+  ImGui::SameLine(0, frame.px(16));
+  ImGui::SetNextItemWidth(-FLT_MIN);
+  ImGui::InputText("##size", &size_);
+  frame.mark("size");
+  if (ImGui::IsItemEdited()) error_ = listing_.error;
+  draw_tip(frame, "Pixels, such as 1600x1200, or on paper, such as 8.5cmx6cm.");
 }
 
 void FileDialog::draw_buttons(Frame& frame) {

@@ -14,6 +14,7 @@
 #include <utility>
 #include <vector>
 
+#include "app/session/settings.h"
 #include "ui/canvas.h"
 #include "ui/dialogs.h"
 #include "ui/file_dialog.h"
@@ -59,15 +60,18 @@ struct LogForm {
   std::vector<std::string> past;  ///< command lines, oldest first
   int recalled = -1;              ///< index of the one in the field; negative: none
   std::size_t drawn = 0;          ///< lines of the log in the last frame
+  float below = 0;                ///< the height below them then
 };
 
-/// A failure that floats over the picture for a while.
+/// What floats over the picture for a while: a failure, a file that was written, what can be
+/// undone.
 struct Notice {
   std::string text;
   app::LogLine::Kind kind = app::LogLine::Kind::kError;
   double until = 0;                           ///< ImGui's time
   std::vector<SettingHint> settings = {};     ///< that may help
   std::vector<app::SourceSpec> sources = {};  ///< that a button brings back; empty: none
+  bool replaced = false;                      ///< whether others have been in their place
 };
 
 /// All that the panels remember between frames; nothing of it decides what is computed.
@@ -112,8 +116,13 @@ struct Frame {
   std::string section;  ///< the one that is being drawn; prefix of its items' names
 
   void send(app::Command command) { out.commands.push_back(std::move(command)); }
+  /// Settings of methods are those of A: while B is shown, A is shown again, or nothing would seem
+  /// to happen.
   void set(std::string_view name, std::string value) {
+    const app::Setting* const setting = app::find_setting(name);
+    const bool of_a = setting != nullptr && setting->of_method();
     send(app::command::Set{std::string(name), std::move(value)});
+    if (of_a && state().shown == app::Shown::kB) send(app::command::Show{app::Shown::kA});
   }
   const app::ViewerState& state() const { return session.state(); }
   const app::Explored& explored() const { return session.explored(); }

@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <utility>
 
+#include "app/session/script.h"
 #include "ui/action.h"
 #include "ui/canvas.h"
 #include "ui/dialogs.h"
@@ -74,7 +75,7 @@ void take_drop(Frame& frame) {
          app::LogLine::Kind::kNote, ImGui::GetTime() + kSaysDrop});
   }
   frame.ui.dropped.clear();
-  if (std::filesystem::path(file).extension() == kSessionExtension) {
+  if (std::filesystem::path(file).extension() == app::kSessionExtension) {
     frame.ui.write_question.send(frame, app::command::Run{file});
   } else {
     frame.send(app::command::Open{file});

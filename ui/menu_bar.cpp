@@ -2,6 +2,8 @@
 #include "ui/panels.h"
 
 #include <imgui.h>
+#include <algorithm>
+#include <cfloat>
 #include <string>
 
 #include "app/session/model.h"
@@ -37,6 +39,10 @@ constexpr int kScales[] = {75, 100, 125, 150, 200};  ///< of letters, percent
 /// A menu of the bar. True: open.
 bool begin_menu(Frame& frame, const char* name) {
   frame.section = "Menu";
+  // A menu that is taller than its window scrolls: it would cover the bar, and the pointer one of
+  // its entries.
+  const float room = ImGui::GetIO().DisplaySize.y - ImGui::GetFrameHeight();
+  ImGui::SetNextWindowSizeConstraints({0, 0}, {FLT_MAX, std::max(1.0F, room)});
   const bool open = ImGui::BeginMenu(name);
   frame.mark(name);
   return open;
@@ -69,7 +75,7 @@ void draw_file_menu(Frame& frame) {
   draw_menu_action(frame, "Save session\u2026", Action::kSaveSession);
   draw_menu_action(frame, "Save picture\u2026", Action::kSavePicture);
   draw_menu_action(frame, "Save distances\u2026", Action::kSaveDistances);
-  draw_menu_action(frame, "Save figures\u2026", Action::kSaveFigures);
+  draw_menu_action(frame, "Save report\u2026", Action::kSaveFigures);
   draw_menu_action(frame, "Save log\u2026", Action::kSaveLog);
   draw_menu_action(frame, "Save mesh\u2026", Action::kSaveMesh);
   ImGui::Separator();

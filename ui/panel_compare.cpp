@@ -59,6 +59,8 @@ void draw_ab_panel(Frame& frame) {
   draw_tip(frame, "Keeps the present settings as B (k), to compare others with.");
   ImGui::SameLine();
   if (draw_button(frame, "swap", "Swap", kept, width)) perform(frame, Action::kSwap);
+  draw_tip(frame,
+           "Makes B what the solver panel changes. While B is shown it stays in sight, as A.");
   ImGui::SameLine();
   if (draw_button(frame, "forget", "Forget B", kept, width)) perform(frame, Action::kForget);
   if (!kept) {
@@ -78,7 +80,9 @@ void draw_ab_panel(Frame& frame) {
 namespace {
 
 void draw_figures(Frame& frame, const AccuracyReport& report) {
-  if (!report.measured) return draw_note(sentence(report), frame.colours().dim);
+  if (!report.measured) {
+    return draw_advice(frame, sentence(report), report.advice, frame.colours().dim);
+  }
   const DistanceError& e = report.figures;
   draw_value(frame, "against", to_text(report.reference), "",
              "The more accurate method; solved once for these sources.");
@@ -199,13 +203,23 @@ void draw_table(Frame& frame) {
   constexpr ImGuiTableFlags kFlags =
       ImGuiTableFlags_RowBg | ImGuiTableFlags_SizingStretchProp | ImGuiTableFlags_NoSavedSettings;
   if (!ImGui::BeginTable("figures", 4, kFlags)) return;
+  struct Column {
+    const char *name, *help;
+  };
+  constexpr Column kColumns[] = {
+      {"MB", "Memory of the factors."},
+      {"batch, ms", "A source set, where 16 are solved for at once."},
+      {"largest", "The largest difference from the reference, of its largest distance."}};
   ImGui::TableSetupColumn("backend", 0, 1.5F);
-  for (const char* name : {"MB", "batch", "max diff"}) ImGui::TableSetupColumn(name, 0, 1);
+  for (const Column& column : kColumns) ImGui::TableSetupColumn(column.name, 0, 1);
   ImGui::TableNextRow();
   ImGui::PushStyleColor(ImGuiCol_Text, frame.colours().dim);
   ImGui::TableNextColumn();
   ImGui::TextUnformatted("backend");
-  for (const char* name : {"MB", "batch", "max diff"}) draw_cell(name);
+  for (const Column& column : kColumns) {
+    draw_cell(column.name);
+    draw_tip(frame, column.help);
+  }
   ImGui::PopStyleColor();
   for (const app::CompareRow& row : compare.rows) {
     ImGui::TableNextRow();
@@ -241,6 +255,7 @@ void draw_compare_panel(Frame& frame) {
   if (!open) return;
   draw_choices(frame);
   if (compare.rows.empty()) return;
+  draw_dim(frame, "Of " + compare.rows.front().model + ":");
   draw_bars(frame, "Set-up", &app::CompareRow::setup_ms);
   draw_bars(frame, "Query, median", &app::CompareRow::query_ms_median);
   draw_table(frame);

@@ -93,8 +93,10 @@ void draw_log_panel(Frame& frame) {
     for (int i = clipper.DisplayStart; i < clipper.DisplayEnd; ++i) draw_line(frame, *lines[i]);
   }
   LogForm& form = frame.ui.log;
-  if (form.follow && frame.session.log().size() != form.drawn) ImGui::SetScrollHereY(1);
+  const bool changed = frame.session.log().size() != form.drawn || below != form.below;
+  if (form.follow && changed) ImGui::SetScrollHereY(1);
   form.drawn = frame.session.log().size();
+  form.below = below;
   ImGui::EndChild();
   ImGui::PopStyleColor();
   draw_command_line(frame);

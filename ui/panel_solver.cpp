@@ -241,13 +241,6 @@ void draw_solver_panel(Frame& frame) {
   if (!draw_section(frame, "Solver")) return;
   draw_work_row(frame);
   draw_failure(frame);
-  if (frame.state().shown == app::Shown::kB) {
-    draw_note("B is shown; these settings are those of A.", frame.colours().warning);
-    if (draw_button(frame, "edit b", "Edit B: swap A and B")) {
-      frame.send(app::command::Swap{});
-      frame.send(app::command::Show{app::Shown::kA});
-    }
-  }
   draw_rows(frame, true);
   if (draw_more(frame, "Advanced settings")) draw_rows(frame, false);
 }

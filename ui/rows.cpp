@@ -115,9 +115,11 @@ void draw_work_row(Frame& frame) {
   if (moves || !work.busy) {
     // As high as while work goes on, so that the rows below stay where they are.
     const bool stale = !moves && frame.session.stale();
+    const bool of_a = frame.state().shown == app::Shown::kB;
     ImGui::AlignTextToFramePadding();
-    ImGui::PushStyleColor(ImGuiCol_Text, stale ? p.warning : p.dim);
+    ImGui::PushStyleColor(ImGuiCol_Text, stale || of_a ? p.warning : p.dim);
     ImGui::TextUnformatted(moves            ? "live"
+                           : of_a           ? "B is shown, these are A's"
                            : stale          ? "stale: of other settings"
                            : frame.answer() ? "up to date"
                                             : "nothing to do yet");

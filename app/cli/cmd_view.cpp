@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <CLI/CLI.hpp>
 
+#include <utility>
+
 #include "app/cli/commands.h"
 #include "app/cli/picture_report.h"
 #include "app/cli/render_work.h"
@@ -13,6 +15,7 @@
 #include "app/session/machine.h"
 #include "app/session/model.h"
 #include "app/session/outputs.h"
+#include "app/session/script.h"
 #include "app/session/session.h"
 #include "app/session/wording.h"
 #include "app/text/text.h"
@@ -46,6 +49,8 @@ Result<std::vector<SourceSpec>> sources_in(const SourceArguments& arguments) {
   return specs;
 }
 
+bool is_session(const std::string& file) { return io::file_extension(file) == kSessionExtension; }
+
 bool is_headless(const ViewArguments& a) {
   return a.headless || !a.replay.empty() || !a.output.empty();
 }
@@ -60,6 +65,11 @@ Result<void> check(const ViewArguments& a) {
     return Error{ErrorCode::kBadInput,
                  "--script and --replay: give one of them",
                  {"--replay writes no files of its own"}};
+  }
+  if (is_session(a.model) && !(a.script.empty() && a.replay.empty())) {
+    return Error{ErrorCode::kBadInput,
+                 one_line(a.model) + ": a session, beside --script or --replay",
+                 {"give one of them"}};
   }
   if (a.model == kStandardInput) {
     return Error{ErrorCode::kBadInput,
@@ -198,7 +208,8 @@ void add_view_options(CLI::App& command, ViewArguments& arguments) {
       "  geotherm model.obj\n"
       "  geotherm view bunny -s 17 --view heat-gradient\n"
       "  geotherm view body.obj --sequence walk.pc2\n"
-      "  geotherm view --replay session.geotherm -o out.png");
+      "  geotherm view session.geotherm\n"
+      "  geotherm view session.geotherm -o out.png");
 }
 
 Result<std::vector<Command>> commands_of(const ViewArguments& arguments,
@@ -235,9 +246,14 @@ Result<std::vector<Command>> commands_of(const ViewArguments& arguments,
   return commands_to(state);
 }
 
-Result<CommandOutput> run_view(const ViewArguments& arguments, Drawing& drawing,
-                               ViewerWindow& window, const Progress& progress) {
-  if (auto checked = check(arguments); !checked) return checked.error();
+Result<CommandOutput> run_view(const ViewArguments& given, Drawing& drawing, ViewerWindow& window,
+                               const Progress& progress) {
+  if (auto checked = check(given); !checked) return checked.error();
+  ViewArguments arguments = given;
+  std::string session;  // in the model's place
+  if (is_session(given.model)) {
+    (is_headless(given) ? arguments.replay : session) = std::exchange(arguments.model, {});
+  }
   const std::vector<std::string> colour_maps = drawing.colour_maps();
   auto commands = commands_of(arguments, colour_maps);
   if (!commands) return commands.error();
@@ -246,6 +262,9 @@ Result<CommandOutput> run_view(const ViewArguments& arguments, Drawing& drawing,
   if (is_headless(arguments)) return run_headless(arguments, *commands, drawing, progress);
 
   // A window that opens to say that there is no such file helps nobody.
+  if (!session.empty()) {
+    if (const auto file = io::InputFile::open_as_is(session); !file) return file.error();
+  }
   if (is_bundled(arguments.model)) {
     if (const auto file = bundled_file(arguments.model); !file) return file.error();
   } else if (std::error_code unknown;
@@ -255,6 +274,7 @@ Result<CommandOutput> run_view(const ViewArguments& arguments, Drawing& drawing,
   ViewerStart start;
   start.commands = *std::move(commands);
   start.script = arguments.script;
+  start.session = session;
   start.device = arguments.picture.device;
   start.scale = *scale;
   start.validation = arguments.validation;
@@ -294,11 +314,13 @@ Result<void> save_view_picture(const command::SavePicture& save, const Session& 
   const ViewerState& state = session.state();
   if (!explored.model) return Error{ErrorCode::kBadInput, "no model is open to draw"};
   PictureSettings settings = state.picture;
-  if (save.width > 0 || painter.width > 0) {
-    settings.width = save.width > 0 ? save.width : painter.width;
-    settings.height = save.width > 0 ? save.height : painter.height;
+  if (save.size) {
+    if (auto fits = set_size(settings, *save.size); !fits) return fits;
+  } else if (painter.width > 0) {
+    settings.width = painter.width;
+    settings.height = painter.height;
     settings.paper = std::nullopt;
-    if (save.width <= 0 && !settings.text_size) settings.text_size = painter.text_size;
+    if (!settings.text_size) settings.text_size = painter.text_size;
   }
   Outputs outputs;
   if (!is_bundled(state.model)) outputs.protect(state.model, "the model itself");

@@ -386,7 +386,8 @@ Result<std::vector<Command>> commands_of(const ViewArguments& arguments,
                                          std::span<const std::string> colour_maps);
 
 /// Opens the window, or runs the commands without one where a replay, an output or --headless says
-/// so. The output's text is then what the session has to say.
+/// so. A session in the model's place is opened, or replayed. The output's text is then what the
+/// session has to say.
 Result<CommandOutput> run_view(const ViewArguments& arguments, Drawing& drawing,
                                ViewerWindow& window, const Progress& progress = {});
 

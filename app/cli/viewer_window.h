@@ -18,6 +18,7 @@ namespace geotherm::app {
 struct ViewerStart {
   std::vector<Command> commands;  ///< at once: those that the command line stands for
   std::string script;             ///< a file of commands that follow; empty: none
+  std::string session;            ///< opened as one that is dropped on the window; empty: none
   std::string device;             ///< part of its name; empty: the best
   int width = 0, height = 0;      ///< of the window; 0: the usual
   double scale = 0;               ///< of letters and panels; 0: the monitor's

@@ -76,21 +76,44 @@ Result<void> fit_to_paper(PictureSettings& settings) {
   return {};
 }
 
-std::string size_text(const PictureSettings& settings) {
-  if (!settings.paper) {
-    return std::to_string(settings.width) + "x" + std::to_string(settings.height);
+Result<void> set_size(PictureSettings& settings, const PictureSize& size) {
+  const auto& [across, down] = size;
+  if (across.unit == PaperUnit::kPixel) {
+    settings.width = static_cast<int>(across.value);
+    settings.height = static_cast<int>(down.value);
+    settings.paper = std::nullopt;
+    return {};
   }
-  return text_of((*settings.paper)[0]) + "x" + text_of((*settings.paper)[1]);
+  PictureSettings changed = settings;
+  changed.paper = size;
+  auto fits = fit_to_paper(changed);
+  if (fits) settings = std::move(changed);
+  return fits;
 }
 
-Result<std::array<PaperLength, 2>> parse_paper(const std::string& text) {
-  const std::size_t at = std::min(text.find('x'), text.size());
+std::string size_text(const PictureSize& size) { return text_of(size[0]) + "x" + text_of(size[1]); }
+
+std::string size_text(const PictureSettings& settings) {
+  if (settings.paper) return size_text(*settings.paper);
+  return std::to_string(settings.width) + "x" + std::to_string(settings.height);
+}
+
+Result<PictureSize> parse_size(const std::string& text) {
+  const std::size_t at = std::min(text.find_first_of("xX"), text.size());
   const auto across = length_in(text.substr(0, at));
   const auto down = at == text.size() ? std::nullopt : length_in(text.substr(at + 1));
-  const auto on_paper = [](const auto& side) { return side && side->unit != PaperUnit::kPixel; };
-  if (on_paper(across) && on_paper(down)) return std::array{*across, *down};
-  const auto pixels = parse_size(text);
-  return pixels ? bad_value(text, "is no size on paper") : pixels.error();
+  const auto on_paper = [](const PaperLength& side) { return side.unit != PaperUnit::kPixel; };
+  const auto in_pixels = [](const PaperLength& side) {
+    return side.unit == PaperUnit::kPixel && side.value == std::floor(side.value) &&
+           side.value <= kLargestPictureSide;
+  };
+  if (across && down &&
+      ((on_paper(*across) && on_paper(*down)) || (in_pixels(*across) && in_pixels(*down)))) {
+    return PictureSize{*across, *down};
+  }
+  return bad_value(text, "is no size",
+                   "give WxH in pixels, each 1 to " + std::to_string(kLargestPictureSide) +
+                       ", such as 1920x1080, or in cm, mm, in or pt, such as 8cmx6cm");
 }
 
 std::string length_text(const std::optional<PaperLength>& length) {

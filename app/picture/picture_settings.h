@@ -146,6 +146,9 @@ struct PaperLength {
   bool operator==(const PaperLength&) const = default;
 };
 
+/// Width and height: both in whole pixels, or both on paper.
+using PictureSize = std::array<PaperLength, 2>;
+
 /// Which cells are drawn: those with all corners on one side of a share of what is shown.
 enum class PeelSide { kOff, kBelow, kAbove };
 inline NamedValues<PeelSide> named_values(PeelSide) {
@@ -180,7 +183,7 @@ struct PictureSettings {
   int width = 1280, height = 720;
   std::optional<int> dpi;  ///< pixels an inch on paper; absent: not said
   /// The size on paper that width and height come from (fit_to_paper()); absent: it is in pixels.
-  std::optional<std::array<PaperLength, 2>> paper;
+  std::optional<PictureSize> paper;
   int samples = 4;  ///< 1 or 4 a pixel
   std::string colour_map = "red-blue";
   bool reverse = false;
@@ -225,6 +228,9 @@ double pixels_of(const PaperLength& length, const PictureSettings& settings);
 /// Sets width and height from the size on paper, where there is one. Errors: kBadInput (a side is
 /// not 1 to 8192 pixels long; nothing is changed).
 Result<void> fit_to_paper(PictureSettings& settings);
+
+/// Makes the picture so large. Errors: those of fit_to_paper().
+Result<void> set_size(PictureSettings& settings, const PictureSize& size);
 
 /// What X, Y (up) and Z of a picture whose Y is up become: the shortest turn takes Y to the axis.
 /// kAuto leaves them as they are.

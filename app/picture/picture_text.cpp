@@ -73,20 +73,6 @@ Result<int> whole_between(const std::string& text, int least, int most, const st
   return bad_value(text, why, "give " + std::to_string(least) + " to " + std::to_string(most));
 }
 
-Result<Size> parse_size(const std::string& text) {
-  if (const auto parts = halves(text, "xX")) {
-    const auto width = number_in<int>(parts->first);
-    const auto height = number_in<int>(parts->second);
-    const auto fits = [](const std::optional<int>& side) {
-      return side && *side >= 1 && *side <= kLargestPictureSide;
-    };
-    if (fits(width) && fits(height)) return Size{*width, *height};
-  }
-  return bad_value(text, "is no size",
-                   "give WxH in pixels, each 1 to " + std::to_string(kLargestPictureSide) +
-                       ", such as 1920x1080, or in cm, mm, in or pt, such as 8cmx6cm");
-}
-
 Result<int> parse_samples(const std::string& text) {
   if (text == "1" || text == "4") return text == "1" ? 1 : 4;
   return bad_value(text, "samples a pixel cannot be had", "give 1 or 4");

@@ -26,6 +26,7 @@ std::string slice_text(const PictureSettings& settings);
 std::string peel_text(const Peel& peel);
 
 /// "1280x720" or "8cmx6cm".
+std::string size_text(const PictureSize& size);
 std::string size_text(const PictureSettings& settings);
 
 /// "1.5" (pixels), "0.5pt" or, without one, "auto".
@@ -37,9 +38,6 @@ std::string number_format_text(const NumberFormat& format);
 /// "0.5,1,2" or, without any, "auto".
 std::string values_text(const std::vector<double>& values);
 
-struct Size {
-  int width = 0, height = 0;
-};
 struct Range {
   std::optional<double> min, max;
 };
@@ -47,8 +45,7 @@ struct Pan {
   double right = 0, up = 0;
 };
 
-Result<Size> parse_size(const std::string& text);                          // 1280x720
-Result<std::array<PaperLength, 2>> parse_paper(const std::string& text);   // 8cmx6cm
+Result<PictureSize> parse_size(const std::string& text);                   // 1280x720 | 8cmx6cm
 Result<std::optional<PaperLength>> parse_length(const std::string& text);  // 1.5 | 0.5pt | auto
 Result<std::optional<int>> parse_dpi(const std::string& text);             // 10 to 2400 | auto
 Result<NumberFormat> parse_number_format(const std::string& text);         // auto | fixed:2

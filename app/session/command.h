@@ -203,10 +203,10 @@ struct Compare {  // compare [all|NAME,NAME...]
   bool operator==(const Compare&) const = default;
 };
 
-/// Writes a .png, .pdf or .svg of what is shown; 0: as large as it is shown.
-struct SavePicture {  // save picture FILE [WxH] [panels]
+/// Writes a .png, .pdf or .svg of what is shown; no size: as large as it is shown.
+struct SavePicture {  // save picture FILE [SIZE] [panels]
   std::string path;
-  int width = 0, height = 0;
+  std::optional<PictureSize> size = {};
   bool panels = false;
   bool operator==(const SavePicture&) const = default;
 };

@@ -215,8 +215,7 @@ Result<Command> read_save_picture(WordReader& reader) {
       error.hint.emplace_back(", or panels");
       return error;
     }
-    save.width = size->width;
-    save.height = size->height;
+    save.size = *size;
   }
   if (!reader.at_end()) {
     if (auto panels = reader.one_of({"panels"}); !panels) return panels.error();
@@ -266,7 +265,7 @@ const Form kForms[] = {
     {"field", "FILE|none", 1, 1, with_path<command::ShowField>},
     {"max-distance", "R|none", 1, 1, read_max_distance},
     {"compare", "[all|NAME,NAME...]", 0, 1, read_compare},
-    {"save picture", "FILE [WxH] [panels]", 1, 3, read_save_picture},
+    {"save picture", "FILE [SIZE] [panels]", 1, 3, read_save_picture},
     {"save distances", "FILE", 1, 1, with_text<command::SaveDistances>},
     {"save mesh", "FILE", 1, 1, with_text<command::SaveMesh>},
     {"save session", "FILE", 1, 1, with_text<command::SaveSession>},

@@ -347,7 +347,7 @@ struct Printer {
   std::string operator()(const command::Compare& c) const { return words("compare", {c.backends}); }
   std::string operator()(const command::SavePicture& c) const {
     std::string text = words("save picture", {c.path});
-    if (c.width > 0) text += " " + std::to_string(c.width) + "x" + std::to_string(c.height);
+    if (c.size) text += " " + size_text(*c.size);
     return text + (c.panels ? " panels" : "");
   }
   std::string operator()(const command::SaveDistances& c) const {

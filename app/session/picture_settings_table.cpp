@@ -25,20 +25,9 @@ Result<void> set_range(State& s, const Text& text) {
   return {};
 }
 
-Result<void> set_size(State& s, const Text& text) {
-  if (const auto size = parse_size(text)) {
-    s.picture.width = size->width;
-    s.picture.height = size->height;
-    s.picture.paper = std::nullopt;
-    return {};
-  }
-  const auto paper = parse_paper(text);
-  if (!paper) return paper.error();
-  PictureSettings changed = s.picture;
-  changed.paper = *paper;
-  if (auto fits = fit_to_paper(changed); !fits) return fits;
-  s.picture = std::move(changed);
-  return {};
+Result<void> set_picture_size(State& s, const Text& text) {
+  const auto size = parse_size(text);
+  return size ? set_size(s.picture, *size) : size.error();
 }
 
 Result<void> set_pan(State& s, const Text& text) {
@@ -86,7 +75,7 @@ std::vector<Setting> picture_settings_table() {
        .help = "size of the picture, in pixels, up to 8192x8192, or in cm, mm, in or pt, such as "
                "8cmx6cm",
        .get = [](const State& s) { return size_text(s.picture); },
-       .set = set_size},
+       .set = set_picture_size},
       number<&PictureSettings::samples, parse_samples>({.name = "samples",
                                                         .group = kPicture,
                                                         .value_name = "N",

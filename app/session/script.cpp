@@ -229,7 +229,7 @@ Result<void> check_name(const std::string& path, const Command& command) {
     return of_space ? Result<void>() : check_distance_path(path);
   }
   if (std::holds_alternative<command::SaveMesh>(command)) return check_mesh_path(path);
-  std::string what = "sessions and logs are", extension = ".geotherm";
+  std::string what = "sessions and logs are", extension(kSessionExtension);
   if (std::holds_alternative<command::SavePicture>(command)) {
     for (const char* const known : {".png", ".pdf", ".svg"}) {
       if (io::file_extension(path) == known) return {};

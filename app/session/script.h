@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "app/session/command.h"
@@ -9,6 +10,9 @@
 
 // What commands may write. Scripts come from others: none may reach a file that is not its own.
 namespace geotherm::app {
+
+/// The extension of session files, which are scripts of commands.
+inline constexpr std::string_view kSessionExtension = ".geotherm";
 
 /// Second line of what the program writes. A shell that is given the file takes all that follows
 /// for a text that it does not look into; geotherm skips the line.

@@ -18,7 +18,8 @@ struct LogLine {
   enum class Kind { kCommand, kNote, kWarning, kError };
   Kind kind = Kind::kNote;
   std::string text;
-  Hint hint = {};  ///< of a warning or an error: what to do
+  Hint hint = {};            ///< of a warning or an error: what to do
+  bool has_written = false;  ///< a note of a file that a user has asked for
 };
 
 /// Times of one query, for the plot.

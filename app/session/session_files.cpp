@@ -160,6 +160,7 @@ Result<void> Session::State::save(const Command& command, const Session& session
     saved_by_scripts.erase(full_path(path));
   }
   note(LogLine::Kind::kNote, "wrote " + one_line(path));
+  log.back().has_written = giver == Giver::kUser;
   return {};
 }
 

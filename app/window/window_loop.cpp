@@ -56,6 +56,7 @@ Result<std::unique_ptr<WindowLoop>> WindowLoop::open(const ViewerStart& start) {
   loop->interface_ =
       std::make_unique<ui::Interface>(loop->saved_layout_, engine::font_file(), loop->base_scale_);
   if (auto ready = loop->follow_scale(); !ready) return ready.error();
+  if (!start.session.empty()) loop->interface_->drop({start.session});
   return loop;
 }
 

@@ -34,13 +34,15 @@ TEST_F(ProgramView, AReplayEqualsThePictureOfRender) {
 }
 
 TEST_F(ProgramView, SavesFiguresAsRenderDoes) {
-  folder.write(
-      "s.geotherm",
-      "open terrain\nsource set 40\nsize 320x200\nsave picture f.svg\nsave picture f.pdf\n");
+  folder.write("s.geotherm",
+               "open terrain\nsource set 40\nsize 320x200\nsave picture f.svg\nsave picture f.pdf\n"
+               "save picture paper.svg 80mmx6cm\n");
   run({"view", "--headless", "--script", "s.geotherm"});
   run({"render", "terrain", "-s", "40", "--size", "320x200", "--fit", "sphere", "-o", "r.svg"});
   EXPECT_EQ(bytes_of(folder.path("f.svg")), bytes_of(folder.path("r.svg")));
   EXPECT_EQ(bytes_of(folder.path("f.pdf")).substr(0, 5), "%PDF-");
+  run({"render", "terrain", "-s", "40", "--size", "80mmx6cm", "--fit", "sphere", "-o", "q.svg"});
+  EXPECT_EQ(bytes_of(folder.path("paper.svg")), bytes_of(folder.path("q.svg")));
   folder.write("p.geotherm", "open terrain\nsave picture p.svg panels\n");
   const ProgramRun refused =
       run_program(folder.path("."), {"view", "--headless", "--script", "p.geotherm"});
@@ -56,9 +58,11 @@ TEST_F(ProgramView, ASavedSessionAndALogGiveTheSamePicture) {
                "save picture first.png\n");
   run({"view", "--headless", "--script", "s.geotherm"});
   run({"view", "--replay", "saved.geotherm", "-o", "saved.png"});
+  run({"view", "saved.geotherm", "-o", "named.png"});
   run({"view", "--replay", "log.geotherm", "-o", "log.png"});
   const auto first = pixels("first.png");
   EXPECT_EQ(pixels("saved.png"), first);
+  EXPECT_EQ(pixels("named.png"), first);
   EXPECT_EQ(pixels("log.png"), first);
 }
 

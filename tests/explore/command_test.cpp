@@ -25,6 +25,9 @@ struct TextCase {
 
 void PrintTo(const TextCase& c, std::ostream* out) { *out << c.name; }
 
+constexpr PictureSize kPixels = {{{640, PaperUnit::kPixel}, {480, PaperUnit::kPixel}}};
+constexpr PictureSize kOnPaper = {{{8.5, PaperUnit::kCentimetre}, {60, PaperUnit::kMillimetre}}};
+
 class CommandText : public testing::TestWithParam<TextCase> {};
 
 TEST_P(CommandText, IsWrittenAsDocumented) {
@@ -107,10 +110,12 @@ INSTANTIATE_TEST_SUITE_P(
         TextCase{"PickNone", Pick{}, "pick none"}, TextCase{"Compare", Compare{}, "compare all"},
         TextCase{"CompareSome", Compare{"cholmod,cg"}, "compare cholmod,cg"},
         TextCase{"SavePicture", SavePicture{"a.png"}, "save picture a.png"},
-        TextCase{"SavePictureSize", SavePicture{"a.png", 640, 480}, "save picture a.png 640x480"},
-        TextCase{"SavePicturePanels", SavePicture{"a b.png", 640, 480, true},
+        TextCase{"SavePictureSize", SavePicture{"a.png", kPixels}, "save picture a.png 640x480"},
+        TextCase{"SavePictureOnPaper", SavePicture{"a.pdf", kOnPaper},
+                 "save picture a.pdf 8.5cmx60mm"},
+        TextCase{"SavePicturePanels", SavePicture{"a b.png", kPixels, true},
                  "save picture \"a b.png\" 640x480 panels"},
-        TextCase{"SavePictureOnlyPanels", SavePicture{"a.png", 0, 0, true},
+        TextCase{"SavePictureOnlyPanels", SavePicture{"a.png", {}, true},
                  "save picture a.png panels"},
         TextCase{"SaveDistances", SaveDistances{"d.npy"}, "save distances d.npy"},
         TextCase{"SaveMesh", SaveMesh{"m.obj"}, "save mesh m.obj"},

@@ -178,12 +178,33 @@ TEST_F(FileDialogTest, SavesThePictureInItsSize) {
   control('P');
   go_to(folder());
   click_item("Files/as shown");
-  fill("Files/width", "640");
-  fill("Files/height", "480");
+  fill("Files/size", "640x480");
   click_item("Files/panels");
   click_item("Files/accept");
   EXPECT_EQ(sent(),
             Texts{"save picture " + (folder() / "square.png").string() + " 640x480 panels"});
+}
+
+TEST_F(FileDialogTest, SavesAFigureInASizeOnPaper) {
+  control('P');
+  go_to(folder());
+  click_item("Files/.pdf");
+  click_item("Files/as shown");
+  fill("Files/size", "8.5cm");
+  click_item("Files/accept");
+  EXPECT_EQ(sent(), Texts{}) << "a width alone is no size";
+  EXPECT_TRUE(is_open());
+  fill("Files/size", "8.5cmx6cm");
+  click_item("Files/accept");
+  EXPECT_EQ(sent(), Texts{"save picture " + (folder() / "square.pdf").string() + " 8.5cmx6cm"});
+}
+
+TEST_F(FileDialogTest, SaysWhatHasBeenWritten) {
+  control('S');
+  go_to(folder());
+  fill("Files/name", "work");
+  frames(2);
+  EXPECT_TRUE(is_drawn("Notices/close"));
 }
 
 TEST_F(FileDialogTest, SavesThePictureAsShownWithPanels) {

@@ -114,6 +114,15 @@ class SmallWindow : public UiTest {
   }
 };
 
+/// It would cover the bar, and the button that is let go take an entry.
+TEST_F(SmallWindow, HasMenusBelowTheirBar) {
+  const float bar = middle_of("Menu/View").y;
+  click_item("Menu/View");
+  frames(3);
+  EXPECT_GT(middle_of("Menu/Wireframe").y, 2 * bar);
+  EXPECT_TRUE(sent().empty());
+}
+
 /// No bar has room beside the picture there: its key brings it over the picture, which stays.
 TEST_F(SmallWindow, HasEveryBarByItsKey) {
   const Rect before = panels_->canvas();

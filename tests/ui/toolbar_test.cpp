@@ -118,6 +118,17 @@ TEST_F(SourceThings, ComeBackWhereOneClickReplacedSeveral) {
   EXPECT_FALSE(is_drawn("Notices/bring back"));
 }
 
+TEST_F(SourceThings, AreNotOfferedAgainAfterAnUndo) {
+  run("source set 0 40 80");
+  frame();
+  EXPECT_EQ(click_sends(), "source set face");
+  frames(2);
+  EXPECT_TRUE(is_drawn("Notices/bring back"));
+  run("undo");
+  frames(2);
+  EXPECT_FALSE(is_drawn("Notices/bring back"));
+}
+
 TEST_F(SourceThings, AreReplacedWithoutAWordWhereThereIsOne) {
   EXPECT_EQ(click_sends(), "source set face");
   frames(2);
@@ -199,14 +210,20 @@ TEST_F(Tools, SettingsThatFewPeopleChangeWaitUntilTheyAreAskedFor) {
   EXPECT_TRUE(is_drawn("Solver/precision"));
 }
 
-TEST_F(Tools, SettingsOfAAreEditedWhileBIsShownOnlyKnowingly) {
+TEST_F(Tools, ChangesMadeWhileBIsShownAreSeen) {
   run("keep");
   run("backend cg");
   frame();
-  EXPECT_FALSE(is_drawn("Solver/edit b"));
+  const float place = middle_of("A and B/show a").y;
   run("show b");
   frame();
-  click_item("Solver/edit b");
+  EXPECT_EQ(middle_of("A and B/show a").y, place) << "buttons that flip stay under the pointer";
+  sent();
+  fill("Solver/time-factor", "2");
+  EXPECT_EQ(sent(), (Texts{"time-factor 2", "show a"}));
+  run("show b");
+  frame();
+  click_item("A and B/swap");
   EXPECT_EQ(sent(), (Texts{"swap", "show a"}));
 }
 
