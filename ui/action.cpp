@@ -137,12 +137,12 @@ Rect& bar_of(Places& places, Drawer bar) {
 /// too small for any, over the picture.
 void turn_bar(Frame& frame, Drawer bar) {
   UiState& ui = frame.ui;
-  if (std::exchange(ui.drawer, Drawer::kNone) == bar) return;
   Layout& layout = ui.layout;
   bool& wanted = bar == Drawer::kLog     ? layout.log
                  : bar == Drawer::kRight ? layout.right
                                          : layout.left;
-  wanted = !(wanted && bar_of(ui.places, bar).width > 0);
+  const bool is_over = std::exchange(ui.drawer, Drawer::kNone) == bar;
+  wanted = !is_over && !(wanted && bar_of(ui.places, bar).width > 0);
   if (!wanted) return;
   if (bar != Drawer::kLog) layout.right_first = bar == Drawer::kRight;
   const ImVec2 window = ImGui::GetIO().DisplaySize;
