@@ -26,8 +26,9 @@ build() {
   local preset=$1 target=${2:-all} log
   if command -v ccache >/dev/null; then
     export CMAKE_CXX_COMPILER_LAUNCHER=ccache
-    # What precompiled headers ask for. Without CCACHE_DEPEND a header whose comments alone changed
-    # counts as the same, and the precompiled one differs from the file that #pragma once compares.
+    # What precompiled headers ask for. Without CCACHE_DEPEND a precompiled header is taken from
+    # the cache where comments alone have changed; #pragma once takes both for different files then,
+    # and all in them is defined twice.
     export CCACHE_SLOPPINESS=pch_defines,time_macros CCACHE_DEPEND=1
   fi
   say "building $preset${2:+ ($2)} in build/$preset"

@@ -137,17 +137,20 @@ Rect& bar_of(Places& places, Drawer bar) {
 /// too small for any, over the picture.
 void turn_bar(Frame& frame, Drawer bar) {
   UiState& ui = frame.ui;
-  Layout& layout = ui.layout;
+  if (std::exchange(ui.drawer, Drawer::kNone) == bar) return;
+  Layout layout = ui.layout;
   bool& wanted = bar == Drawer::kLog     ? layout.log
                  : bar == Drawer::kRight ? layout.right
                                          : layout.left;
-  const bool is_over = std::exchange(ui.drawer, Drawer::kNone) == bar;
-  wanted = !is_over && !(wanted && bar_of(ui.places, bar).width > 0);
-  if (!wanted) return;
-  if (bar != Drawer::kLog) layout.right_first = bar == Drawer::kRight;
+  wanted = !(wanted && bar_of(ui.places, bar).width > 0);
+  if (wanted && bar != Drawer::kLog) layout.right_first = bar == Drawer::kRight;
   const ImVec2 window = ImGui::GetIO().DisplaySize;
   Places places = place_panels(layout, window.x, window.y, ui.scale, ImGui::GetFrameHeight());
-  if (bar_of(places, bar).width <= 0) ui.drawer = bar;
+  if (wanted && bar_of(places, bar).width <= 0) {
+    ui.drawer = bar;  // for a while: larger windows stay as they were
+  } else {
+    ui.layout = layout;
+  }
 }
 
 /// As large as there is room for from here; what follows turns a model of one size.

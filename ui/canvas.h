@@ -32,6 +32,9 @@ void draw_canvas_overlay(Frame& frame);
 /// Makes notices of the failures that the log has gained.
 void take_notices(Frame& frame);
 
+/// What take_notices() and clicks have to say, for a while.
+void draw_notices(Frame& frame);
+
 /// What the sculpting brush does on a stroke of the mouse; nothing where that is another one.
 std::optional<app::SculptTool> sculpt_tool(MouseAction action, app::SculptTool chosen);
 

@@ -144,13 +144,16 @@ void draw_buttons(Frame& frame, Notice& notice) {
     frame.send(app::command::SetSources{notice.sources});
     notice.until = 0;
   }
-  if (draw_remedies(frame, notice.settings)) notice.until = 0;
+  if (draw_remedies(frame, notice.settings, false)) notice.until = 0;
   ImGui::PopID();
 }
+
+}  // namespace
 
 void draw_notices(Frame& frame) {
   auto& notices = frame.ui.notices;
   for (Notice& notice : notices) {  // an undo brings sources back, too
+    if (notice.sources.empty()) continue;
     if (notice.sources != frame.state().sources) {
       notice.replaced = true;
     } else if (notice.replaced) {
@@ -186,8 +189,6 @@ void draw_notices(Frame& frame) {
   ImGui::End();
 }
 
-}  // namespace
-
 void take_notices(Frame& frame) {
   const auto log = frame.session.log();
   std::size_t& taken = frame.ui.notified;
@@ -215,7 +216,6 @@ void draw_canvas_overlay(Frame& frame) {
   }
   draw_shown_badge(frame);
   draw_picked(frame);
-  draw_notices(frame);
 }
 
 }  // namespace geotherm::ui

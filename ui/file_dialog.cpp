@@ -119,7 +119,7 @@ void FileDialog::ask(FilePurpose purpose, const app::ViewerState& state) {
   error_.clear();
   const FileTask& task = file_task(purpose);
   name_ = task.saves ? suggested_name(state.model, task) : "";
-  if (size_.empty()) size_ = app::size_text(state.picture);
+  if (as_shown_ || !app::parse_size(size_)) size_ = app::size_text(state.picture);
   std::error_code error;
   if (folder_.empty()) folder_ = fs::current_path(error);
   if (folder_.empty()) folder_ = "/";
@@ -168,9 +168,14 @@ void FileDialog::accept(Frame& frame) {
     error_ = "there is no folder " + file.parent_path().string();
     return;
   }
-  if (const auto size = app::parse_size(size_); is_sized() && !size) {
-    error_ = sentence(size.error());
-    return;
+  if (is_sized()) {
+    app::PictureSettings picture = frame.state().picture;
+    const auto size = app::parse_size(size_);
+    const auto fits = size ? app::set_size(picture, *size) : size.error();
+    if (!fits) {
+      error_ = sentence(fits.error());
+      return;
+    }
   }
   if (fs::exists(file, ignored) && !question_) {
     question_ = true;

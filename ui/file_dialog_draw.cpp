@@ -126,7 +126,7 @@ void FileDialog::draw_picture_options(Frame& frame) {
   draw_checkbox(frame, "panels", "with the panels", panels_);
   ImGui::EndDisabled();
   ImGui::SameLine(0, frame.px(16));
-  draw_checkbox(frame, "as shown", "as shown", as_shown_);
+  if (draw_checkbox(frame, "as shown", "as shown", as_shown_)) error_ = listing_.error;
   if (as_shown_) return;
   ImGui::SameLine(0, frame.px(16));
   ImGui::SetNextItemWidth(-FLT_MIN);

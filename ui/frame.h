@@ -118,12 +118,7 @@ struct Frame {
   void send(app::Command command) { out.commands.push_back(std::move(command)); }
   /// Settings of methods are those of A: while B is shown, A is shown again, or nothing would seem
   /// to happen.
-  void set(std::string_view name, std::string value) {
-    const app::Setting* const setting = app::find_setting(name);
-    const bool of_a = setting != nullptr && setting->of_method();
-    send(app::command::Set{std::string(name), std::move(value)});
-    if (of_a && state().shown == app::Shown::kB) send(app::command::Show{app::Shown::kA});
-  }
+  void set(std::string_view name, std::string value);
   const app::ViewerState& state() const { return session.state(); }
   const app::Explored& explored() const { return session.explored(); }
   /// The model that is shown; null: none.

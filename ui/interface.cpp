@@ -75,7 +75,7 @@ void take_drop(Frame& frame) {
          app::LogLine::Kind::kNote, ImGui::GetTime() + kSaysDrop});
   }
   frame.ui.dropped.clear();
-  if (std::filesystem::path(file).extension() == app::kSessionExtension) {
+  if (app::is_session(file)) {
     frame.ui.write_question.send(frame, app::command::Run{file});
   } else {
     frame.send(app::command::Open{file});
@@ -151,7 +151,7 @@ void Interface::set_scale(float scale) {
 
 float Interface::scale() const { return state_->scale; }
 
-FrameOutput Interface::draw(const app::Session& session, const Canvas& canvas) {
+FrameOutput Interface::draw(const app::Session& session, const Canvas& canvas, bool for_file) {
   FrameOutput out;
   UiState& ui = *state_;
   if (std::exchange(ui.restyle, false)) set_style(ui.layout.theme, ui.scale);
@@ -173,6 +173,7 @@ FrameOutput Interface::draw(const app::Session& session, const Canvas& canvas) {
   draw_toolbar(frame);
   draw_status_bar(frame);
   draw_canvas_overlay(frame);
+  if (!for_file) draw_notices(frame);
   draw_sculpt_bar(frame);
   draw_timeline(frame);
   draw_canvas_menu(frame);

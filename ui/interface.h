@@ -64,7 +64,8 @@ class Interface {
   float scale() const;
 
   /// All panels and what mouse and keys ask for, between ImGui::NewFrame and ImGui::Render.
-  FrameOutput draw(const app::Session& session, const Canvas& canvas);
+  /// `for_file`: as a picture keeps them, without what is said for a while.
+  FrameOutput draw(const app::Session& session, const Canvas& canvas, bool for_file = false);
 
   /// Where the panels leave room for the picture, as of the last draw().
   Rect canvas() const;

@@ -73,6 +73,7 @@ void draw_ab_panel(Frame& frame) {
               {"show difference", "A \u2212 B", state.shown == app::Shown::kDifference}});
   constexpr app::Shown kShown[] = {app::Shown::kA, app::Shown::kB, app::Shown::kDifference};
   if (chosen >= 0) frame.send(app::command::Show{kShown[chosen]});
+  draw_dim(frame, "The solver panel changes A; Swap makes it B.");
   draw_settings(frame);
   draw_difference(frame);
 }
@@ -81,7 +82,13 @@ namespace {
 
 void draw_figures(Frame& frame, const AccuracyReport& report) {
   if (!report.measured) {
-    return draw_advice(frame, sentence(report), report.advice, frame.colours().dim);
+    // The bare option of the command line stands for the best method that fits the mesh.
+    Hint advice = report.advice;
+    for (auto& part : advice) {
+      auto* const setting = std::get_if<SettingHint>(&part);
+      if (setting != nullptr && setting->name == "check") setting->values = {"auto"};
+    }
+    return draw_advice(frame, sentence(report), advice, frame.colours().dim);
   }
   const DistanceError& e = report.figures;
   draw_value(frame, "against", to_text(report.reference), "",
@@ -209,7 +216,7 @@ void draw_table(Frame& frame) {
   constexpr Column kColumns[] = {
       {"MB", "Memory of the factors."},
       {"batch, ms", "A source set, where 16 are solved for at once."},
-      {"largest", "The largest difference from the reference, of its largest distance."}};
+      {"max diff", "The largest difference from the reference, of its largest distance."}};
   ImGui::TableSetupColumn("backend", 0, 1.5F);
   for (const Column& column : kColumns) ImGui::TableSetupColumn(column.name, 0, 1);
   ImGui::TableNextRow();

@@ -51,7 +51,7 @@ void draw_setting_label(Frame& frame, const app::Setting& setting, std::string_v
 void draw_setting(Frame& frame, const app::Setting& setting, std::string_view more = {});
 
 /// A button for each value of the settings that may help. True: one was taken.
-bool draw_remedies(Frame& frame, std::span<const SettingHint> settings);
+bool draw_remedies(Frame& frame, std::span<const SettingHint> settings, bool of_shown = true);
 
 /// A sentence with what helps, and the buttons of that.
 void draw_advice(Frame& frame, const std::string& text, const Hint& hint, const ImVec4& colour);

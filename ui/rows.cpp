@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "app/session/settings.h"
 #include "app/text/text.h"
+#include "ui/action.h"
 #include "ui/widgets.h"
 
 namespace geotherm::ui {
@@ -36,6 +38,14 @@ void draw_switch(Frame& frame, const app::Setting& setting) {
 
 }  // namespace
 
+void Frame::set(std::string_view name, std::string value) {
+  const app::Setting* const setting = app::find_setting(name);
+  app::ViewerState changed = state();
+  const bool of_a = setting != nullptr && setting->of_method() && setting->set(changed, value);
+  send(app::command::Set{std::string(name), std::move(value)});
+  if (of_a && state().shown == app::Shown::kB) send(app::command::Show{app::Shown::kA});
+}
+
 std::string setting_text(const Frame& frame, std::string_view name) {
   const app::Setting* setting = app::find_setting(name);
   return setting ? setting->get(frame.state()) : std::string();
@@ -59,12 +69,16 @@ void draw_setting(Frame& frame, const app::Setting& setting, std::string_view mo
   if (typed && !typed->empty()) frame.set(setting.name, *typed);
 }
 
-bool draw_remedies(Frame& frame, std::span<const SettingHint> settings) {
+bool draw_remedies(Frame& frame, std::span<const SettingHint> settings, bool of_shown) {
   bool taken = false;
   for (const SettingHint& setting : settings) {
     for (const std::string& value : setting.values) {
       const std::string change = setting.name + ' ' + value;
       if (!draw_button(frame, change, change.c_str())) continue;
+      const app::Setting* const known = app::find_setting(setting.name);
+      const bool of_b = of_shown && frame.state().shown == app::Shown::kB && known != nullptr &&
+                        known->of_method();
+      if (of_b) perform(frame, Action::kSwap);  // settings that change are A's
       frame.set(setting.name, value);
       taken = true;
     }
@@ -119,8 +133,8 @@ void draw_work_row(Frame& frame) {
     ImGui::AlignTextToFramePadding();
     ImGui::PushStyleColor(ImGuiCol_Text, stale || of_a ? p.warning : p.dim);
     ImGui::TextUnformatted(moves            ? "live"
-                           : of_a           ? "B is shown, these are A's"
                            : stale          ? "stale: of other settings"
+                           : of_a           ? "B is shown, these are A's"
                            : frame.answer() ? "up to date"
                                             : "nothing to do yet");
     ImGui::PopStyleColor();

@@ -49,10 +49,28 @@ Result<std::vector<SourceSpec>> sources_in(const SourceArguments& arguments) {
   return specs;
 }
 
-bool is_session(const std::string& file) { return io::file_extension(file) == kSessionExtension; }
-
 bool is_headless(const ViewArguments& a) {
   return a.headless || !a.replay.empty() || !a.output.empty();
+}
+
+/// A session opens a model with all that belongs to it.
+Result<void> check_beside_session(const ViewArguments& a) {
+  if (!a.script.empty() || !a.replay.empty()) {
+    return Error{ErrorCode::kBadInput,
+                 one_line(a.model) + ": a session, beside --script or --replay",
+                 {"give one of them"}};
+  }
+  const auto asked = settings_in(a.settings);
+  if (!asked) return asked.error();
+  const bool of_model = !a.sources.sources.empty() || !a.sources.file.empty() ||
+                        !a.sequence.empty() || !a.field.empty() || !a.max_distance.empty() ||
+                        asked->reading != initial_state().reading;
+  if (!of_model) return {};
+  return Error{ErrorCode::kBadInput,
+               one_line(a.model) +
+                   ": a session opens a model with sources of its own, and options "
+                   "of a model were given as well",
+               {"leave them out, or name the model"}};
 }
 
 Result<void> check(const ViewArguments& a) {
@@ -66,10 +84,8 @@ Result<void> check(const ViewArguments& a) {
                  "--script and --replay: give one of them",
                  {"--replay writes no files of its own"}};
   }
-  if (is_session(a.model) && !(a.script.empty() && a.replay.empty())) {
-    return Error{ErrorCode::kBadInput,
-                 one_line(a.model) + ": a session, beside --script or --replay",
-                 {"give one of them"}};
+  if (is_session(a.model)) {
+    if (auto alone = check_beside_session(a); !alone) return alone;
   }
   if (a.model == kStandardInput) {
     return Error{ErrorCode::kBadInput,
@@ -155,8 +171,9 @@ Result<CommandOutput> run_headless(const ViewArguments& arguments,
   if (auto done = session.submit_all(all); !done) return done.error();
   if (!script.empty() && arguments.settings.has("size")) {  // not the size of whoever wrote it
     const PictureSettings wish = settings_in(arguments.settings)->picture;
-    const std::string size = std::to_string(wish.width) + 'x' + std::to_string(wish.height);
-    if (auto done = session.submit(command::Set{"size", size}); !done) return done.error();
+    if (auto done = session.submit(command::Set{"size", size_text(wish)}); !done) {
+      return done.error();
+    }
   }
   CommandOutput out;
   if (!arguments.output.empty()) {
@@ -262,8 +279,8 @@ Result<CommandOutput> run_view(const ViewArguments& given, Drawing& drawing, Vie
   if (is_headless(arguments)) return run_headless(arguments, *commands, drawing, progress);
 
   // A window that opens to say that there is no such file helps nobody.
-  if (!session.empty()) {
-    if (const auto file = io::InputFile::open_as_is(session); !file) return file.error();
+  if (std::error_code unknown; !session.empty() && !std::filesystem::is_fifo(session, unknown)) {
+    if (const auto script = read_script(session); !script) return script.error();
   }
   if (is_bundled(arguments.model)) {
     if (const auto file = bundled_file(arguments.model); !file) return file.error();

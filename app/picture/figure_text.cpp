@@ -100,17 +100,19 @@ std::string size_text(const PictureSettings& settings) {
 
 Result<PictureSize> parse_size(const std::string& text) {
   const std::size_t at = std::min(text.find_first_of("xX"), text.size());
-  const auto across = length_in(text.substr(0, at));
-  const auto down = at == text.size() ? std::nullopt : length_in(text.substr(at + 1));
-  const auto on_paper = [](const PaperLength& side) { return side.unit != PaperUnit::kPixel; };
-  const auto in_pixels = [](const PaperLength& side) {
-    return side.unit == PaperUnit::kPixel && side.value == std::floor(side.value) &&
-           side.value <= kLargestPictureSide;
+  const std::string left = text.substr(0, at);
+  const std::string right = at == text.size() ? "" : text.substr(at + 1);
+  const auto pixels = [](const std::string& side) {
+    const auto count = number_in<int>(side);
+    return count && *count >= 1 && *count <= kLargestPictureSide ? count : std::nullopt;
   };
-  if (across && down &&
-      ((on_paper(*across) && on_paper(*down)) || (in_pixels(*across) && in_pixels(*down)))) {
-    return PictureSize{*across, *down};
+  if (const auto width = pixels(left), height = pixels(right); width && height) {
+    return PictureSize{PaperLength{static_cast<double>(*width)},
+                       PaperLength{static_cast<double>(*height)}};
   }
+  const auto across = length_in(left), down = length_in(right);
+  const auto on_paper = [](const auto& side) { return side && side->unit != PaperUnit::kPixel; };
+  if (on_paper(across) && on_paper(down)) return PictureSize{*across, *down};
   return bad_value(text, "is no size",
                    "give WxH in pixels, each 1 to " + std::to_string(kLargestPictureSide) +
                        ", such as 1920x1080, or in cm, mm, in or pt, such as 8cmx6cm");

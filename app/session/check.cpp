@@ -31,7 +31,7 @@ AccuracyReport unchecked(MethodKind method, Check check) {
     return unmeasured(method, "nothing more accurate fits a mesh of this size");
   }
   AccuracyReport report = unmeasured(method, to_text(method) + " is near exact");
-  report.advice = {SettingHint{"check", {geotherm::to_text(Check::kAuto)}}, " measures how near"};
+  report.advice = {SettingHint{"check"}, " measures how near"};
   return report;
 }
 

@@ -87,6 +87,8 @@ Result<std::vector<ScriptLine>> read_script(const std::string& path) {
   return lines;
 }
 
+bool is_session(const std::string& path) { return io::file_extension(path) == kSessionExtension; }
+
 std::vector<std::string> files_written_by(const std::string& script) {
   std::vector<std::string> files;
   std::set<std::string> seen = {script};

@@ -14,6 +14,9 @@ namespace geotherm::app {
 /// The extension of session files, which are scripts of commands.
 inline constexpr std::string_view kSessionExtension = ".geotherm";
 
+/// Whether a file has it, whatever the case.
+bool is_session(const std::string& path);
+
 /// Second line of what the program writes. A shell that is given the file takes all that follows
 /// for a text that it does not look into; geotherm skips the line.
 inline constexpr const char* kInertLine = ": <<'commands of geotherm'";

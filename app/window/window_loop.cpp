@@ -180,11 +180,11 @@ PictureArea WindowLoop::area() const {
   return area;
 }
 
-ui::FrameOutput WindowLoop::lay_out_panels() {
+ui::FrameOutput WindowLoop::lay_out_panels(bool for_file) {
   ImGui::NewFrame();
   const ViewCanvas canvas(*screen_, session_->explored(), clock_.frames_per_second(),
                           pixels_per_point());
-  ui::FrameOutput out = interface_->draw(*session_, canvas);
+  ui::FrameOutput out = interface_->draw(*session_, canvas, for_file);
   ImGui::Render();
   return out;
 }
@@ -271,8 +271,8 @@ Result<DrawnPicture> WindowLoop::picture_with_panels(const PictureSettings& sett
   io.DisplaySize = {static_cast<float>(extent.x) / scale, static_cast<float>(extent.y) / scale};
   io.MousePos = {-FLT_MAX, -FLT_MAX};
   const PictureArea usual_area = screen_->area();
-  lay_out_panels();  // sizes first,
-  lay_out_panels();  // then what depends on them
+  lay_out_panels(true);  // sizes first,
+  lay_out_panels(true);  // then what depends on them
   auto updated = screen_->update(*session_, area());
   Result<DrawnPicture> picture =
       updated ? screen_->picture_of_window(extent, panel_draw()) : updated.error();

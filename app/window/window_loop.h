@@ -88,7 +88,7 @@ class WindowLoop {
   Result<void> follow_scale();
   void remember_layout();
   void name_window();
-  ui::FrameOutput lay_out_panels();
+  ui::FrameOutput lay_out_panels(bool for_file = false);
   PictureArea area() const;
   float pixels_per_point() const;
 

@@ -43,6 +43,9 @@ TEST_F(ProgramView, SavesFiguresAsRenderDoes) {
   EXPECT_EQ(bytes_of(folder.path("f.pdf")).substr(0, 5), "%PDF-");
   run({"render", "terrain", "-s", "40", "--size", "80mmx6cm", "--fit", "sphere", "-o", "q.svg"});
   EXPECT_EQ(bytes_of(folder.path("paper.svg")), bytes_of(folder.path("q.svg")));
+  folder.write("t.geotherm", "open terrain\nsource set 40\n");
+  run({"view", "t.geotherm", "--size", "80mmx6cm", "-o", "t.svg"});
+  EXPECT_EQ(bytes_of(folder.path("t.svg")), bytes_of(folder.path("q.svg")));
   folder.write("p.geotherm", "open terrain\nsave picture p.svg panels\n");
   const ProgramRun refused =
       run_program(folder.path("."), {"view", "--headless", "--script", "p.geotherm"});
@@ -58,7 +61,8 @@ TEST_F(ProgramView, ASavedSessionAndALogGiveTheSamePicture) {
                "save picture first.png\n");
   run({"view", "--headless", "--script", "s.geotherm"});
   run({"view", "--replay", "saved.geotherm", "-o", "saved.png"});
-  run({"view", "saved.geotherm", "-o", "named.png"});
+  folder.write("NAMED.GEOTHERM", bytes_of(folder.path("saved.geotherm")));
+  run({"view", "NAMED.GEOTHERM", "-o", "named.png"});
   run({"view", "--replay", "log.geotherm", "-o", "log.png"});
   const auto first = pixels("first.png");
   EXPECT_EQ(pixels("saved.png"), first);

@@ -204,6 +204,7 @@ TEST_F(FileDialogTest, SaysWhatHasBeenWritten) {
   go_to(folder());
   fill("Files/name", "work");
   frames(2);
+  EXPECT_TRUE(session_.log().back().has_written);
   EXPECT_TRUE(is_drawn("Notices/close"));
 }
 

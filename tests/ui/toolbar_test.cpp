@@ -181,6 +181,40 @@ TEST_F(Said, WithTheRemedyOfAPoorAnswer) {
   EXPECT_FALSE(is_drawn("Exact error/" + change));
 }
 
+TEST_F(Said, WithTheRemedyOfAPoorB) {
+  run("source set 0");
+  run("time-factor 3000");
+  run("keep");
+  run("time-factor 1");
+  run("show b");
+  frames(3);
+  const auto& error = session_.explored().b->error;
+  ASSERT_TRUE(error && error->remedy);
+  const auto remedies = settings_of(error->advice);
+  const std::string change = remedies.at(0).name + ' ' + remedies[0].values.at(0);
+  sent();
+  click_item("Exact error/" + change);
+  EXPECT_EQ(sent(), (Texts{"swap", "show a", change, "show a"})) << "A keeps its settings";
+}
+
+TEST_F(Said, HowNearANearExactMethodIs) {
+  run("method wavefront");
+  frames(3);
+  click_item("Exact error/check auto");
+  EXPECT_EQ(sent(), Texts{"check auto"});
+  frames(3);
+  EXPECT_TRUE(session_.explored().a->error->measured);
+}
+
+TEST_F(Said, AFailureStaysWhateverHappensToTheSources) {
+  EXPECT_FALSE(session_.submit(app::command::Open{"/no/such.obj"}) && session_.failure().empty());
+  frames(3);
+  EXPECT_TRUE(is_drawn("Notices/close"));
+  run("source clear");
+  frames(3);
+  EXPECT_TRUE(is_drawn("Notices/close"));
+}
+
 TEST_F(Said, WhichOfSeveralDroppedFilesIsOpened) {
   panels_->drop({session_.state().model, "/no/other.obj"});
   frames(2);

@@ -58,8 +58,8 @@ struct CellComplex {
 };
 
 /// Whether the arrays fit together, in O(S). Errors (kBadInput, with the numbers): sizes that do
-/// not fit, no cell, a corner out of range or twice in one, values that are not finite, gradients
-/// not of sum 0, measures and widths not above 0, shares below 0, not of sum 1, or 0 at a vertex.
+/// not, no cell, a corner out of range or twice in one, what is not finite, gradients that do not
+/// sum to 0, measures or widths not above 0, shares below 0, not of sum 1, or all 0 at a vertex.
 Result<void> check_cells(const CellComplex& cells);
 
 /// Vertices joined by edges with lengths, in model units: roads, pipes, a skeleton. Distance runs
