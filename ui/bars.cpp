@@ -147,10 +147,10 @@ std::string what_is_there(const Frame& frame) {
   const auto& hovered = frame.ui.input.hovered();
   if (!hovered || !frame.model()) return {};
   const auto figures = app::figures_at(frame.explored(), frame.state().shown, *hovered);
-  const auto& value = figures.difference ? figures.difference : figures.distance;
+  const auto value = value_shown(figures, frame.state().shown);
   if (!value) return {};
   const std::string number = std::isfinite(*value) ? app::significant(*value) : "not reached";
-  return (figures.difference ? "A \u2212 B = " : "d = ") + number;
+  return (frame.state().shown == app::Shown::kDifference ? "A \u2212 B = " : "d = ") + number;
 }
 
 /// How wrong what is shown is, where that is known.

@@ -131,7 +131,7 @@ void draw_picked(Frame& frame) {
   };
   cross(packed({0, 0, 0, 0.65F}), 4);
   cross(packed({1, 1, 1, 1}), 2);
-  const auto& value = figures.difference ? figures.difference : figures.distance;
+  const auto value = value_shown(figures, frame.state().shown);
   if (!value) return;
   const std::string text = std::isfinite(*value) ? app::significant(*value) : "not reached";
   draw_badge(frame, {at.x, at.y - frame.px(24)}, text);

@@ -73,7 +73,7 @@ void draw_ab_panel(Frame& frame) {
               {"show difference", "A \u2212 B", state.shown == app::Shown::kDifference}});
   constexpr app::Shown kShown[] = {app::Shown::kA, app::Shown::kB, app::Shown::kDifference};
   if (chosen >= 0) frame.send(app::command::Show{kShown[chosen]});
-  draw_dim(frame, "The solver panel changes A; Swap makes it B.");
+  draw_dim(frame, "The solver panel changes A.");
   draw_settings(frame);
   draw_difference(frame);
 }

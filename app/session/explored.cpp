@@ -75,6 +75,10 @@ PointFigures figures_at(const Explored& explored, Shown shown, const SurfacePoin
   return figures;
 }
 
+std::optional<double> value_shown(const PointFigures& figures, Shown shown) {
+  return shown == Shown::kDifference ? figures.difference : figures.distance;
+}
+
 namespace {
 
 std::string caption_of(const Explored& explored, Shown shown) {

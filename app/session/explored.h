@@ -86,6 +86,9 @@ struct PointFigures {
 /// Precondition: the point lies on the model.
 PointFigures figures_at(const Explored& explored, Shown shown, const SurfacePoint& point);
 
+/// The number that the picture shows there: the distance of A or B, or their difference.
+std::optional<double> value_shown(const PointFigures& figures, Shown shown);
+
 /// Whether a view shows the vector fields of an answer.
 bool shows_arrows(View view);
 

@@ -352,6 +352,10 @@ TEST_F(SessionTest, FiguresOfAPointAreThoseOfItsCorners) {
   EXPECT_EQ(figures.distance, explored.a->result.distances[corner]);
   ASSERT_TRUE(figures.heat) << "picking asks for u";
   EXPECT_EQ(figures.heat, explored.a->result.heat[corner]);
+  run({"keep", "time-factor 30"});
+  const PointFigures both = figures_at(explored, Shown::kA, SurfacePoint::in_face(10, {0, 1, 0}));
+  EXPECT_EQ(value_shown(both, Shown::kA), explored.a->result.distances[corner]);
+  EXPECT_EQ(value_shown(both, Shown::kDifference), explored.difference->values[corner]);
 }
 
 TEST_F(SessionTest, ComparesBackendsOnTheModelThatIsOpen) {
