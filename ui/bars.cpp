@@ -184,6 +184,7 @@ State what_goes_on(const Frame& frame) {
   }
   if (!frame.session.failure().empty()) return {"failed", p.error};
   if (frame.session.stale()) return {"stale", p.warning};
+  if (ImGui::GetTime() < frame.ui.says_written_until) return {frame.ui.written, p.good};
   return {"", p.dim};
 }
 
@@ -223,6 +224,7 @@ void draw_status_bar(Frame& frame) {
     ImGui::PushStyleColor(ImGuiCol_Text, state.colour);
     ImGui::TextUnformatted(state.text.c_str());
     ImGui::PopStyleColor();
+    frame.mark("work");
     draw_tip(frame, frame.session.failure());
   }
   const std::string there = what_is_there(frame);

@@ -196,7 +196,11 @@ void take_notices(Frame& frame) {
   if (taken > log.size()) taken = log.size() - std::min<std::size_t>(1, log.size());
   for (; taken < log.size(); ++taken) {
     const app::LogLine& line = log[taken];
-    if (line.kind != app::LogLine::Kind::kError && !line.has_written) continue;
+    if (line.has_written) {
+      frame.ui.written = line.text;
+      frame.ui.says_written_until = ImGui::GetTime() + kNoticeTime;
+    }
+    if (line.kind != app::LogLine::Kind::kError) continue;
     auto& notices = frame.ui.notices;
     std::string text = sentence(line.text, line.hint);
     std::erase_if(notices, [&](const Notice& notice) { return notice.text == text; });

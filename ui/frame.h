@@ -63,8 +63,7 @@ struct LogForm {
   float below = 0;                ///< the height below them then
 };
 
-/// What floats over the picture for a while: a failure, a file that was written, what can be
-/// undone.
+/// What floats over the picture for a while: a failure, or what can be undone.
 struct Notice {
   std::string text;
   app::LogLine::Kind kind = app::LogLine::Kind::kError;
@@ -99,7 +98,9 @@ struct UiState {
   int seeks = 0;                   ///< frames in which it is
   std::size_t compared = 0;        ///< rows of it in the last frame
   std::vector<Notice> notices;
-  std::size_t notified = 0;  ///< lines of the log that notices were made of
+  std::size_t notified = 0;       ///< lines of the log that notices were made of
+  std::string written;            ///< what the status bar says of the file that was written last
+  double says_written_until = 0;  ///< ImGui's time
   std::vector<std::string> dropped;
   std::string noted_model;                   ///< the file that was noted as opened last
   bool ask_keys = false, ask_about = false;  ///< dialogs to be opened in this frame

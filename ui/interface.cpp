@@ -164,6 +164,7 @@ FrameOutput Interface::draw(const app::Session& session, const Canvas& canvas, b
   take_drop(frame);
   note_model(frame);
   take_notices(frame);
+  if (for_file) ui.says_written_until = 0;  // that is of the file before
 
   begin_host();
   ui.input.draw(frame);     // first: panels show what lies under the pointer now

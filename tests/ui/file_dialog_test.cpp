@@ -205,7 +205,8 @@ TEST_F(FileDialogTest, SaysWhatHasBeenWritten) {
   fill("Files/name", "work");
   frames(2);
   EXPECT_TRUE(session_.log().back().has_written);
-  EXPECT_TRUE(is_drawn("Notices/close"));
+  EXPECT_TRUE(is_drawn("Status/work"));
+  EXPECT_FALSE(is_drawn("Notices/close")) << "nothing is laid over the picture";
 }
 
 TEST_F(FileDialogTest, SavesThePictureAsShownWithPanels) {
