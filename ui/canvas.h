@@ -25,11 +25,12 @@ void send_inside_command(Frame& frame, MouseAction action, const Vec3& position)
 void open_canvas_menu(Frame& frame, const std::optional<SurfacePoint>& point);
 void draw_canvas_menu(Frame& frame);
 
-/// What floats over the picture: the hint where there is no model, which of A and B is shown, the
-/// picked point, and failures for a while.
+/// What floats over the picture: the hint where there is no model, which of A and B is shown, and
+/// the picked point.
 void draw_canvas_overlay(Frame& frame);
 
-/// Makes notices of the failures that the log has gained.
+/// Makes notices of the failures that the log has gained, and keeps for the status bar which file
+/// was written.
 void take_notices(Frame& frame);
 
 /// What take_notices() and clicks have to say, for a while.

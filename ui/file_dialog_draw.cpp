@@ -105,17 +105,16 @@ void FileDialog::draw_formats(Frame& frame) {
   const FileTask& task = file_task(purpose_);
   if (task.saves) {
     draw_label(frame, "format");
+    for (const std::string_view extension : task.extensions) {
+      const std::string text(extension);
+      const bool on = has_extension(name_, {&extension, 1});
+      if (draw_toggle(frame, {text, text.c_str(), on}, frame.px(90))) {
+        name_ = std::filesystem::path(name_).replace_extension(text).string();
+      }
+      ImGui::SameLine();
+    }
   } else {
     draw_label(frame, "files", "Listed are " + app::joined(task.extensions, " "));
-  }
-  for (const std::string_view extension : task.extensions) {
-    if (!task.saves) break;
-    const std::string text(extension);
-    const bool on = has_extension(name_, {&extension, 1});
-    if (draw_toggle(frame, {text, text.c_str(), on}, frame.px(90))) {
-      name_ = std::filesystem::path(name_).replace_extension(text).string();
-    }
-    ImGui::SameLine();
   }
   if (draw_checkbox(frame, "all files", "list all files", all_files_)) list();
 }

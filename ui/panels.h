@@ -50,7 +50,8 @@ void draw_setting_label(Frame& frame, const app::Setting& setting, std::string_v
 /// The whole row: a check box, a list of the values, or a field.
 void draw_setting(Frame& frame, const app::Setting& setting, std::string_view more = {});
 
-/// A button for each value of the settings that may help. True: one was taken.
+/// A button for each value of the settings that may help. `of_shown`: they help the answer that is
+/// shown, so B becomes A first where that is B. True: one was taken.
 bool draw_remedies(Frame& frame, std::span<const SettingHint> settings, bool of_shown = true);
 
 /// A sentence with what helps, and the buttons of that.

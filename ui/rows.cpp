@@ -36,14 +36,21 @@ void draw_switch(Frame& frame, const app::Setting& setting) {
   draw_tip(frame, tip_of(setting, {}));
 }
 
+/// The setting, where A and B have their own and B is shown; null: what is set is what is seen.
+const app::Setting* setting_of_a(const Frame& frame, std::string_view name) {
+  if (frame.state().shown != app::Shown::kB) return nullptr;
+  const app::Setting* const setting = app::find_setting(name);
+  return setting != nullptr && setting->of_method() ? setting : nullptr;
+}
+
 }  // namespace
 
 void Frame::set(std::string_view name, std::string value) {
-  const app::Setting* const setting = app::find_setting(name);
+  const app::Setting* const of_a = setting_of_a(*this, name);
   app::ViewerState changed = state();
-  const bool of_a = setting != nullptr && setting->of_method() && setting->set(changed, value);
+  const bool shows_a = of_a != nullptr && of_a->set(changed, value);
   send(app::command::Set{std::string(name), std::move(value)});
-  if (of_a && state().shown == app::Shown::kB) send(app::command::Show{app::Shown::kA});
+  if (shows_a) send(app::command::Show{app::Shown::kA});
 }
 
 std::string setting_text(const Frame& frame, std::string_view name) {
@@ -75,10 +82,7 @@ bool draw_remedies(Frame& frame, std::span<const SettingHint> settings, bool of_
     for (const std::string& value : setting.values) {
       const std::string change = setting.name + ' ' + value;
       if (!draw_button(frame, change, change.c_str())) continue;
-      const app::Setting* const known = app::find_setting(setting.name);
-      const bool of_b = of_shown && frame.state().shown == app::Shown::kB && known != nullptr &&
-                        known->of_method();
-      if (of_b) perform(frame, Action::kSwap);  // settings that change are A's
+      if (of_shown && setting_of_a(frame, setting.name)) perform(frame, Action::kSwap);
       frame.set(setting.name, value);
       taken = true;
     }
