@@ -67,7 +67,7 @@ inline T front_length(T extent, T size, T root_t, T inverse_root_t) {
   const T half = 0.5 * inverse_root_t * extent;
   const T q = half * half * (1.0 / 6);
   const T length = root_t * (1 / kFront) * size * (1.0 + q - 0.5 * q * q);
-  return (extent > kResolved * root_t) | (length > one) ? one : length;
+  return ((extent > kResolved * root_t) | (length > one)) ? one : length;
 }
 
 /// The same on a face, by its layout and the direction of the gradient.
