@@ -76,7 +76,7 @@ Index count_cut(const CellComplex& cells) {
   return static_cast<Index>(faces.size());
 }
 
-TEST(CutPolygons, HaveErrorsLikeThoseOfTheirTriangles) {
+TEST(CutPolygons, HaveErrorsLikeThoseOfTheirTrianglesSlow) {
   // What users ask for: at most 1.3 times.
   for (const auto& block : {kNotch, kComb, kSpiral}) {
     for (const double stretch : {1.0, 3.0, 30.0}) {
@@ -203,7 +203,7 @@ TEST(CutPolygons, TakeSourcesInside) {
   }
 }
 
-TEST(CutPolygons, LetSourcesInsideSeeAcrossTheSidesOfTheirFace) {
+TEST(CutPolygons, LetSourcesInsideSeeAcrossTheSidesOfTheirFaceSlow) {
   // The nearest vertices lie across a long side, which the source sees them through. The march is
   // exact there but where the straight line passes between vertices of which one is farther away.
   std::mt19937 random(11);
@@ -252,7 +252,7 @@ TEST(CutPolygons, LetSourcesInsideSeeAcrossTheSidesOfTheirFace) {
   }
 }
 
-TEST(CutPolygons, TakeSourcesInTheirOwnTriangles) {
+TEST(CutPolygons, TakeSourcesInTheirOwnTrianglesSlow) {
   // Where corners lie in a row but for noise, other triangles of the face stand upright.
   std::mt19937 random(3);
   std::uniform_real_distribution<double> share(0.05, 1), noise(-0.1, 0.1);

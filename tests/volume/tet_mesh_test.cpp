@@ -259,7 +259,7 @@ TEST(TetModels, HaveTheSizeAskedForAndNoBadTetSlow) {
   EXPECT_FALSE(generate_volume("box-tets", 3));
 }
 
-TEST(TetTimes, DoNotHangOnTheUnitOfLength) {
+TEST(TetTimes, DoNotHangOnTheUnitOfLengthSlow) {
   const auto grading = [](double unit) {
     const TetMesh box = make_box_tets(24, 24, 24, Vec3::Constant(unit));
     return HeatMethod::build(shared(cells_of(box)))->grading();
