@@ -185,8 +185,7 @@ TEST(CutPolygons, TakeSourcesInside) {
     const PolygonMesh mesh = tiles(block, 8, 3);
     const auto triangles = std::make_shared<const TriangleMesh>(*triangulated(mesh));
     const auto cells = shared(cells_of(mesh));
-    const auto method = HeatMethod::build(triangles);
-    ASSERT_TRUE(method);
+    const HeatMethod on_cells = method_of(cells), on_triangles = method_of(triangles);
     double of_polygons = 0, of_triangles = 0;
     for (int k = 0; k < 12; ++k) {
       Index cell = static_cast<Index>(random() % static_cast<unsigned>(cells->cell_count()));
@@ -194,16 +193,16 @@ TEST(CutPolygons, TakeSourcesInside) {
       std::vector<double> weights(cells->corners_of(cell).size(), 0.0);
       for (const std::size_t corner : cut_corners(*cells, cell)) weights[corner] = share(random);
       const auto [inside, at] = source_inside(mesh, *cells, cell, weights);
-      SourceSet on_triangles;
-      on_triangles.points.push_back(closest_point(*triangles, at)->point);
-      of_polygons += straight_error(*cells, solve_cells(cells, inside).distances, at);
-      of_triangles += straight_error(*cells, method->solve(on_triangles)->distances, at);
+      SourceSet same;
+      same.points.push_back(closest_point(*triangles, at)->point);
+      of_polygons += straight_error(*cells, solve(on_cells, inside).distances, at);
+      of_triangles += straight_error(*cells, solve(on_triangles, same).distances, at);
     }
     EXPECT_LE(of_polygons, 1.3 * of_triangles) << block[0];
   }
 }
 
-TEST(CutPolygons, LetSourcesInsideSeeAcrossTheSidesOfTheirFaceSlow) {
+TEST(CutPolygons, LetSourcesInsideSeeAcrossTheSidesOfTheirFace) {
   // The nearest vertices lie across a long side, which the source sees them through. The march is
   // exact there but where the straight line passes between vertices of which one is farther away.
   std::mt19937 random(11);
@@ -211,6 +210,7 @@ TEST(CutPolygons, LetSourcesInsideSeeAcrossTheSidesOfTheirFaceSlow) {
   for (const PolygonMesh& mesh :
        {moved_quads(24, 1, 0.25), tiles(kNotch, 12, 10), tiles(kSpiral, 10, 10)}) {
     const auto cells = shared(cells_of(mesh));
+    const HeatMethod method = method_of(cells);
     int seen = 0, wrong = 0;
     for (int k = 0; k < 20; ++k) {
       Index cell = static_cast<Index>(random() % static_cast<unsigned>(cells->cell_count()));
@@ -232,7 +232,7 @@ TEST(CutPolygons, LetSourcesInsideSeeAcrossTheSidesOfTheirFaceSlow) {
         weights[three.empty() ? 1 : three[1]] = share(random);
       }
       const auto [inside, at] = source_inside(mesh, *cells, cell, weights);
-      const auto answer = solve_cells(cells, inside);
+      const auto answer = solve(method, inside);
       std::vector<std::pair<double, Index>> nearest;
       for (Index v = 0; v < cells->vertices; ++v) {
         nearest.emplace_back((mesh.positions[v] - at).norm(), v);
@@ -252,13 +252,14 @@ TEST(CutPolygons, LetSourcesInsideSeeAcrossTheSidesOfTheirFaceSlow) {
   }
 }
 
-TEST(CutPolygons, TakeSourcesInTheirOwnTrianglesSlow) {
+TEST(CutPolygons, TakeSourcesInTheirOwnTriangles) {
   // Where corners lie in a row but for noise, other triangles of the face stand upright.
   std::mt19937 random(3);
   std::uniform_real_distribution<double> share(0.05, 1), noise(-0.1, 0.1);
   PolygonMesh mesh = tiles(kSpiral, 6, 1);
   for (Vec3& at : mesh.positions) at[2] = noise(random);
   const auto cells = shared(cells_of(mesh));
+  const HeatMethod method = method_of(cells);
   int tried = 0;
   for (Index cell = 0; cell < cells->cell_count(); cell += 11) {
     const auto three = cut_corners(*cells, cell);
@@ -267,7 +268,7 @@ TEST(CutPolygons, TakeSourcesInTheirOwnTrianglesSlow) {
     std::vector<double> weights(corners.size(), 0.0);
     for (const std::size_t c : three) weights[c] = share(random);
     const auto [inside, at] = source_inside(mesh, *cells, cell, weights);
-    const auto answer = solve_cells(cells, inside);
+    const auto answer = solve(method, inside);
     for (const std::size_t c : three) {
       const double line = (mesh.positions[corners[c]] - at).norm();
       EXPECT_NEAR(answer.distances[corners[c]], line, 0.01 * line) << cell;

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "geotherm/geotherm.h"
+#include "tests/support/solve.h"
 
 namespace geotherm::test {
 
@@ -20,12 +21,7 @@ inline CellsPtr shared(Result<CellComplex> cells) {
 
 inline DistanceResult solve_cells(const CellsPtr& cells, const SourceSet& sources,
                                   const HeatOptions& options = {}) {
-  const auto method = HeatMethod::build(cells, options);
-  EXPECT_TRUE(method) << (method ? "" : sentence(method.error()));
-  if (!method) return {};
-  auto result = method->solve(sources);
-  EXPECT_TRUE(result) << (result ? "" : sentence(result.error()));
-  return result ? *std::move(result) : DistanceResult{};
+  return solve(method_of(cells, options), sources);
 }
 
 /// Mean of |d - |x - x_s|| over the mean distance.

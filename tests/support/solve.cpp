@@ -15,20 +15,26 @@ std::vector<std::string> names(bool iterative) {
   return out;
 }
 
+/// GoogleTest reports an error as the failure of the test that is running.
+template <class T>
+T value_of(Result<T> result) {
+  if (!result) throw std::runtime_error(sentence(result.error()));
+  return std::move(*result);
+}
+
 }  // namespace
 
 HeatMethod method_of(const MeshPtr& mesh, const HeatOptions& options) {
-  auto method = HeatMethod::build(mesh, options);
-  // GoogleTest reports it as the failure of the test that is running.
-  if (!method) throw std::runtime_error(sentence(method.error()));
-  return std::move(*method);
+  return value_of(HeatMethod::build(mesh, options));
+}
+
+HeatMethod method_of(const std::shared_ptr<const CellComplex>& cells, const HeatOptions& options) {
+  return value_of(HeatMethod::build(cells, options));
 }
 
 DistanceResult solve(const HeatMethod& method, const SourceSet& sources,
                      const QueryOptions& query) {
-  auto result = method.solve(sources, query);
-  if (!result) throw std::runtime_error(sentence(result.error()));
-  return std::move(*result);
+  return value_of(method.solve(sources, query));
 }
 
 DistanceResult solve(const MeshPtr& mesh, const std::vector<Index>& sources,

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -16,6 +17,8 @@ namespace geotherm::test {
 
 /// A method that must be possible to build.
 HeatMethod method_of(const MeshPtr& mesh, const HeatOptions& options = {});
+HeatMethod method_of(const std::shared_ptr<const CellComplex>& cells,
+                     const HeatOptions& options = {});
 
 /// An answer that must be possible to give; no distances where it was not.
 DistanceResult solve(const HeatMethod& method, const SourceSet& sources,
