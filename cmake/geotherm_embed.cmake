@@ -14,7 +14,6 @@ function(geotherm_embed target symbol file)
     DEPENDS "${file}" "${GEOTHERM_EMBED_SCRIPT}"
     COMMENT "Embedding ${symbol}" VERBATIM)
   target_sources(${target} PRIVATE "${out}.cpp" "${out}.h")
-  set_source_files_properties("${out}.cpp" PROPERTIES SKIP_PRECOMPILE_HEADERS ON
-                              SKIP_UNITY_BUILD_INCLUSION ON)
+  set_source_files_properties("${out}.cpp" PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
   target_include_directories(${target} PRIVATE "${folder}")
 endfunction()

@@ -27,7 +27,7 @@ if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND _megabytes_each GREATER 4000)
   add_compile_options(--param=ggc-min-heapsize=2000000)
 endif()
 
-option(GEOTHERM_PCH "Precompile headers, and compile some sources together" ON)
+option(GEOTHERM_UNITY "Compile the sources of a target together" ON)
 
 # What every target of the project has in common.
 function(geotherm_target name)
@@ -42,42 +42,23 @@ function(geotherm_target name)
   endif()
 endfunction()
 
-# geotherm_precompile(TARGET HEADERS...): saves about half of the time that compiling takes. Off in
-# the presets dev and tidy, where a missing include must be noticed.
-function(geotherm_precompile name)
-  if(NOT GEOTHERM_PCH)
-    return()
-  endif()
-  target_precompile_headers(${name} PRIVATE <algorithm> <cmath> <functional> <memory> <span> <string>
-                            <vector> ${ARGN})
-  geotherm_precompiled_with_ccache(${name})
-endfunction()
-
-# geotherm_reuse_precompiled(TARGET FROM): those of another target, which is compiled alike.
-function(geotherm_reuse_precompiled name from)
-  if(NOT GEOTHERM_PCH)
-    return()
-  endif()
-  target_precompile_headers(${name} REUSE_FROM ${from})
-  geotherm_precompiled_with_ccache(${name})
-endfunction()
-
-# geotherm_compile_together(TARGET [COUNT]): so many sources of its list at a time (20; 0: all).
-# Headers (CLI11, JSON, Vulkan, Dear ImGui, GoogleTest) and templates take longer to compile than
-# sources do: a third of the time that these take one by one, and up to 1.6 GB. Names in anonymous
-# namespaces must differ within a target: one compiler error tells. Off where GEOTHERM_PCH is off.
+# geotherm_compile_together(TARGET [COUNT]): all sources of its list at once, or COUNT at a time where
+# that would need more than 3 GB. Headers (CLI11, JSON, Vulkan, Dear ImGui, GoogleTest) and templates
+# take longer to compile than sources do. Names in anonymous namespaces must differ within a target:
+# one compiler error tells. Off in the presets dev and tidy, where a missing include must be noticed.
 function(geotherm_compile_together name)
-  set(count 20)
+  if(NOT GEOTHERM_UNITY)
+    return()
+  endif()
+  set(count 0)
   if(ARGC GREATER 1)
     set(count ${ARGV1})
   endif()
-  if(GEOTHERM_PCH)
-    set_target_properties(${name} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE ${count})
-    # A class of one source may hold what is in an anonymous namespace; the compiler takes the source
-    # for a header. Local names may be those that other sources have at their top.
-    if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
-      target_compile_options(${name} PRIVATE -Wno-subobject-linkage -Wno-shadow -Wshadow=local)
-    endif()
+  set_target_properties(${name} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE ${count})
+  # A class of one source may hold what is in an anonymous namespace; the compiler takes the source
+  # for a header. Local names may be those that other sources have at their top.
+  if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+    target_compile_options(${name} PRIVATE -Wno-subobject-linkage -Wno-shadow -Wshadow=local)
   endif()
 endfunction()
 
@@ -85,10 +66,4 @@ endfunction()
 # take half as long again to compile, and a picture of a million faces is there 2 to 5 % sooner with it.
 function(geotherm_compile_lightly name)
   target_compile_options(${name} PRIVATE $<$<CONFIG:Release>:-O1>)
-endfunction()
-
-function(geotherm_precompiled_with_ccache name)
-  if(CMAKE_CXX_COMPILER_LAUNCHER MATCHES "ccache" AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
-    target_compile_options(${name} PRIVATE -fpch-preprocess)
-  endif()
 endfunction()

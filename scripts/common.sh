@@ -24,13 +24,7 @@ job_count() {
 # it takes long.
 build() {
   local preset=$1 target=${2:-all} log
-  if command -v ccache >/dev/null; then
-    export CMAKE_CXX_COMPILER_LAUNCHER=ccache
-    # What precompiled headers ask for. Without CCACHE_DEPEND a precompiled header is taken from
-    # the cache where comments alone have changed; #pragma once takes both for different files then,
-    # and all in them is defined twice.
-    export CCACHE_SLOPPINESS=pch_defines,time_macros CCACHE_DEPEND=1
-  fi
+  if command -v ccache >/dev/null; then export CMAKE_CXX_COMPILER_LAUNCHER=ccache; fi
   say "building $preset${2:+ ($2)} in build/$preset"
   mkdir -p "$root/build"
   log=$root/build/$preset.configure.log

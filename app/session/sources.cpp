@@ -66,18 +66,25 @@ Result<SourceSpec> parse_vertices(std::string_view text) {
 }
 
 Result<SourceSpec> parse_random(std::string_view text, const std::vector<std::string_view>& parts) {
-  RandomVertices random;
-  const auto count = parts.size() > 1 ? number_in<Index>(parts[1]) : std::nullopt;
-  const auto seed = parts.size() == 3 ? number_in<std::uint64_t>(parts[2]) : random.seed;
-  if (!count || !seed || parts.size() > 3) {
+  const auto unread = [&] {
     return unreadable(quoted(text) + " does not say how many vertices",
-                      {"write random:K or random:K:SEED, both whole "
-                       "numbers"});
+                      {"write random:K or random:K:SEED, both whole numbers"});
+  };
+  if (parts.size() < 2 || parts.size() > 3) return unread();
+  RandomVertices random;
+  const auto count = number_in<Index>(parts[1]);
+  if (!count) return unread();
+  random.count = *count;
+  if (parts.size() == 3) {
+    const auto seed = number_in<std::uint64_t>(parts[2]);
+    if (!seed) return unread();
+    random.seed = *seed;
   }
-  if (*count < 1)
-    return unreadable("random:" + std::to_string(*count) + " asks for no vertex",
+  if (random.count < 1) {
+    return unreadable("random:" + std::to_string(random.count) + " asks for no vertex",
                       {"give 1 or more"});
-  return SourceSpec(RandomVertices{*count, *seed});
+  }
+  return SourceSpec(random);
 }
 
 Result<SourceSpec> parse_face(std::string_view text, const std::vector<std::string_view>& parts) {

@@ -11,7 +11,7 @@ namespace geotherm::test {
 namespace {
 
 // The documented amount by which triangle inequalities are strict, and a rounding.
-constexpr double kStrictBy = 1e-5 * (1 - 1e-9);
+constexpr double kStrictButForRounding = 1e-5 * (1 - 1e-9);
 // What one face may take, relative to its longest side: what is missing, and a tenth more so that
 // corrections end; twice that where two of its sides are short.
 constexpr double kMaxPerFace = 2.5e-5;
@@ -19,7 +19,7 @@ constexpr double kMaxPerFace = 2.5e-5;
 void expect_strict(const IntrinsicMesh& mesh) {
   for (const auto& l : mesh.lengths) {
     const double longest = std::max({l[0], l[1], l[2]});
-    EXPECT_GE(l[0] + l[1] + l[2] - 2 * longest, kStrictBy * longest);
+    EXPECT_GE(l[0] + l[1] + l[2] - 2 * longest, kStrictButForRounding * longest);
   }
 }
 

@@ -71,8 +71,8 @@ struct Made {
   }
 };
 
-using Case = std::tuple<Draft (*)(), int>;
-class SetUpByThreads : public testing::TestWithParam<Case> {
+using MeshAndThreads = std::tuple<Draft (*)(), int>;
+class SetUpByThreads : public testing::TestWithParam<MeshAndThreads> {
  protected:
   MeshPtr mesh = finish(std::get<0>(GetParam())());
   Made one{mesh, 1}, many{mesh, std::get<1>(GetParam())};
@@ -113,18 +113,18 @@ TEST_P(SetUpByThreads, HasTheSameBits) {
   EXPECT_TRUE(same_bits(one.matrix.value, many.matrix.value));
 }
 
-std::string case_name(const testing::TestParamInfo<Case>& info) {
+std::string mesh_and_threads_name(const testing::TestParamInfo<MeshAndThreads>& info) {
   const bool spoilt = std::get<0>(info.param) == large_spoilt_mesh;
   return std::string(spoilt ? "Spoilt" : "Large") + std::to_string(std::get<1>(info.param));
 }
 INSTANTIATE_TEST_SUITE_P(Meshes, SetUpByThreads,
                          testing::Combine(testing::Values(large_mesh, large_spoilt_mesh),
                                           testing::Values(3)),
-                         case_name);
+                         mesh_and_threads_name);
 INSTANTIATE_TEST_SUITE_P(MeshesSlow, SetUpByThreads,
                          testing::Combine(testing::Values(large_mesh, large_spoilt_mesh),
                                           testing::Values(2, 7)),
-                         case_name);
+                         mesh_and_threads_name);
 
 class SurfacePatterns : public testing::TestWithParam<ZooMesh> {};
 

@@ -16,7 +16,7 @@ struct BadSource {
   const char* says;  ///< part of the message
 };
 
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+constexpr double kBadNumber = std::numeric_limits<double>::quiet_NaN();
 
 SourceSet at(const SurfacePoint& point) { return {{SurfacePoint::at_vertex(0), point}, {}}; }
 
@@ -36,7 +36,7 @@ const BadSource kBadSources[] = {
     {"negative_face", at(SurfacePoint::in_face(-3, {0.2, 0.3, 0.5})), "-3"},
     {"weights_that_sum_to_two", at(SurfacePoint::in_face(7, {1, 0.5, 0.5})), "2"},
     {"negative_weight", at(SurfacePoint::in_face(7, {-0.5, 1, 0.5})), "7"},
-    {"weight_that_is_no_number", at(SurfacePoint::in_face(7, {kNan, 0.5, 0.5})), "7"},
+    {"weight_that_is_no_number", at(SurfacePoint::in_face(7, {kBadNumber, 0.5, 0.5})), "7"},
     {"face_without_an_inside", at(SurfacePoint::in_face(320, {0.2, 0.3, 0.5})), "320"},
     {"edge_with_a_vertex_beyond_the_last", {{}, {{0, 500}}}, "500"},
     {"offset", with_offset(0.25), "wavefront"},
@@ -88,7 +88,7 @@ const BadOption kBadOptions[] = {
      "factor"},
     {"negative_factor", [](HeatOptions& o) { o.time_step.factor = -1; }, ErrorCode::kBadInput,
      "-1"},
-    {"factor_that_is_no_number", [](HeatOptions& o) { o.time_step.factor = kNan; },
+    {"factor_that_is_no_number", [](HeatOptions& o) { o.time_step.factor = kBadNumber; },
      ErrorCode::kBadInput, "factor"},
     {"endless_time",
      [](HeatOptions& o) {

@@ -117,7 +117,7 @@ struct PrecisionCase {
   bool far = false;  ///< on a strip whose heat needs restarts
 };
 
-const PrecisionCase kCases[] = {
+const PrecisionCase kPrecisionCases[] = {
     {"default", [](HeatOptions&) {}},
     {"far", [](HeatOptions&) {}, true},
     {"hold", [](HeatOptions& o) { o.heat = HeatMode::kHold; }},
@@ -150,7 +150,7 @@ TEST_P(RefinedPrecision, BringsBackWhatCompactFactorsLose) {
   EXPECT_LE(relative_difference(distances(Precision::kRefined), full), kRefined);
 }
 
-INSTANTIATE_TEST_SUITE_P(Cases, RefinedPrecision, testing::ValuesIn(kCases),
+INSTANTIATE_TEST_SUITE_P(Cases, RefinedPrecision, testing::ValuesIn(kPrecisionCases),
                          [](const auto& each) { return each.param.name; });
 
 TEST_F(PrecisionOf, AMethodSaysHowItsFactorsAreKept) {

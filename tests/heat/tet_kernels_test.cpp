@@ -20,7 +20,7 @@ namespace {
 
 // Roots by iteration to some units of the last digit, sums of a few terms in another order.
 constexpr double kTetRoundOff = 1e-11;
-constexpr double kRootT = 1.2;
+constexpr double kTetRootT = 1.2;
 constexpr int kVertices = 40;
 constexpr Index kTets = 53;  // that fill no register to the end
 
@@ -71,7 +71,7 @@ class TetKernels : public testing::TestWithParam<std::tuple<int, InstructionSet>
     const Vec3 slope = gradient(tet, column, log_u);
     const Vec3 places = edges(tet) * slope.normalized();
     const double extent = std::max(0.0, places.maxCoeff()) - std::min(0.0, places.minCoeff());
-    const double length = front_length(extent, slope.norm(), kRootT, 1 / kRootT);
+    const double length = front_length(extent, slope.norm(), kTetRootT, 1 / kTetRootT);
     const Vec3 x = -length * gradient(tet, column, u).stableNormalized();
     return {x[0], x[1], x[2]};
   }
@@ -90,7 +90,7 @@ class TetKernels : public testing::TestWithParam<std::tuple<int, InstructionSet>
     pass.level = level;
     pass.b = b.data();
     pass.stride = group;
-    pass.root_t = kRootT;
+    pass.root_t = kTetRootT;
     pass.context = this;
     pass.careful = [](const void* context, Index tet, int column) {
       auto& self = *static_cast<TetKernels*>(const_cast<void*>(context));

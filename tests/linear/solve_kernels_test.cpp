@@ -15,7 +15,7 @@ namespace geotherm::test {
 namespace {
 
 // Sums of up to 60 terms of order 1 in another order, divided by pivots of order 1.
-constexpr double kKernelRoundOff = 1e-12;
+constexpr double kSolveRoundOff = 1e-12;
 constexpr Index kRows = 60;
 
 /// A random supernode: `width` columns from row 3 on, and `under` rows below them.
@@ -71,7 +71,7 @@ class Kernels : public testing::TestWithParam<KernelCase> {
 
   void expect_columns(const Block& got, const Eigen::MatrixXd& expected) const {
     EXPECT_LE((got.leftCols(group) - expected).cwiseAbs().maxCoeff(),
-              kKernelRoundOff * expected.cwiseAbs().maxCoeff());
+              kSolveRoundOff * expected.cwiseAbs().maxCoeff());
     EXPECT_EQ(got.rightCols(3), x.rightCols(3));
   }
 };

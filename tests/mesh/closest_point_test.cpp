@@ -13,7 +13,7 @@ namespace geotherm::test {
 namespace {
 
 /// Of a handful of operations on numbers of the triangle's size.
-constexpr double kRoundOff = 1e-14;
+constexpr double kPointRoundOff = 1e-14;
 
 /// Corners (0,0,0), (4,0,0), (0,4,0).
 TriangleMesh one_triangle() {
@@ -31,8 +31,8 @@ TEST_P(ClosestPoints, AreFoundInFacesOnSidesAndAtCorners) {
   const TriangleMesh mesh = one_triangle();
   const auto found = closest_point(mesh, GetParam().query);
   ASSERT_TRUE(found);
-  EXPECT_LE((position_at(mesh, found->point) - GetParam().closest).norm(), 4 * kRoundOff);
-  EXPECT_NEAR(found->distance, (GetParam().query - GetParam().closest).norm(), 10 * kRoundOff);
+  EXPECT_LE((position_at(mesh, found->point) - GetParam().closest).norm(), 4 * kPointRoundOff);
+  EXPECT_NEAR(found->distance, (GetParam().query - GetParam().closest).norm(), 10 * kPointRoundOff);
 }
 
 INSTANTIATE_TEST_SUITE_P(OfATriangle, ClosestPoints,
@@ -70,7 +70,7 @@ TEST(ClosestPoint, IsNoFartherThanAnyVertexAndHasValidWeights) {
       EXPECT_GE(w, 0);
       sum += w;
     }
-    EXPECT_NEAR(sum, 1, kRoundOff);
+    EXPECT_NEAR(sum, 1, kPointRoundOff);
   }
 }
 
@@ -82,7 +82,7 @@ TEST(ClosestPoint, TakesFacesWithoutAreaAsSegmentsAndPoints) {
                            {{0, 1, 2}, {3, 4, 5}, {6, 6, 0}});
   const auto segment = closest_point(mesh, Vec3(0.5, 1, 0));
   ASSERT_TRUE(segment);
-  EXPECT_NEAR(segment->distance, 1, kRoundOff);
+  EXPECT_NEAR(segment->distance, 1, kPointRoundOff);
   const auto point = closest_point(mesh, Vec3(9, 9, 9));
   ASSERT_TRUE(point);
   EXPECT_EQ(point->point.vertex, 3);
@@ -93,7 +93,7 @@ TEST(ClosestPoint, IsTheSameAtEveryScale) {
     const MeshPtr mesh = finish(transformed(plane_grid(3, 3, 1, 1), scale, Vec3::Zero(), false));
     const auto found = closest_point(*mesh, scale * Vec3(0.4, 0.45, 0.5));
     ASSERT_TRUE(found) << scale;
-    EXPECT_NEAR(found->distance / scale, 0.5, kRoundOff) << scale;
+    EXPECT_NEAR(found->distance / scale, 0.5, kPointRoundOff) << scale;
   }
 }
 

@@ -61,9 +61,9 @@ double to_line(const Vec3& p) {
   return (p - kFrom - share * along).norm();
 }
 
-using Case = std::tuple<MethodKind, int>;  // refine
+using CurveCase = std::tuple<MethodKind, int>;  // refine
 
-class SurfaceCurves : public testing::TestWithParam<Case> {};
+class SurfaceCurves : public testing::TestWithParam<CurveCase> {};
 
 TEST_P(SurfaceCurves, GiveTheDistanceToTheLine) {
   const auto [kind, refine] = GetParam();

@@ -25,7 +25,7 @@ Index faces_between(const TriangleMesh& mesh, Index first_upper) {
 }
 
 /// Two planes above each other that face away from each other.
-SamplePoints two_sheets(double gap) {
+SamplePoints two_sheets_of_points(double gap) {
   SamplePoints out = plane_points(20, 0.3, 1);
   const SamplePoints upper = plane_points(20, 0.3, 2);
   for (Vec3& normal : out.normals) normal = -normal;
@@ -124,7 +124,7 @@ TEST(PointSurfaces, LeaveOutliersUnreached) {
 }
 
 TEST(PointSurfaces, JoinSheetsNearerThanTheirPointsAndSaySo) {
-  const SamplePoints sheets = two_sheets(0.5);
+  const SamplePoints sheets = two_sheets_of_points(0.5);
   const PointSurface joined = surface_from(cloud_of(sheets.positions));
   EXPECT_GT(faces_between(joined.mesh, 400), 400);
   EXPECT_GT(joined.between_sheets, 400);
@@ -138,7 +138,7 @@ TEST(PointSurfaces, JoinSheetsNearerThanTheirPointsAndSaySo) {
 }
 
 TEST(PointSurfaces, JoinNoSheetsThatAreFarApart) {
-  const PointSurface far = surface_from(cloud_of(two_sheets(4).positions));
+  const PointSurface far = surface_from(cloud_of(two_sheets_of_points(4).positions));
   EXPECT_EQ(faces_between(far.mesh, 400), 0);
   EXPECT_TRUE(far.warnings.empty());
 }

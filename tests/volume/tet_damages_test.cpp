@@ -177,11 +177,11 @@ TEST_P(TetDamages, AreToldInOneLineWithThePlace) {
   EXPECT_EQ(sentence(file.error()), path + ": " + GetParam().message);
 }
 
-constexpr auto kName = [](const auto& test) { return test.param.name; };
-INSTANTIATE_TEST_SUITE_P(Medit, TetDamages, testing::ValuesIn(medit_damages()), kName);
-INSTANTIATE_TEST_SUITE_P(Gmsh, TetDamages, testing::ValuesIn(gmsh_damages()), kName);
-INSTANTIATE_TEST_SUITE_P(Vtk, TetDamages, testing::ValuesIn(vtk_damages()), kName);
-INSTANTIATE_TEST_SUITE_P(Other, TetDamages, testing::ValuesIn(other_damages()), kName);
+constexpr auto kDamageName = [](const auto& test) { return test.param.name; };
+INSTANTIATE_TEST_SUITE_P(Medit, TetDamages, testing::ValuesIn(medit_damages()), kDamageName);
+INSTANTIATE_TEST_SUITE_P(Gmsh, TetDamages, testing::ValuesIn(gmsh_damages()), kDamageName);
+INSTANTIATE_TEST_SUITE_P(Vtk, TetDamages, testing::ValuesIn(vtk_damages()), kDamageName);
+INSTANTIATE_TEST_SUITE_P(Other, TetDamages, testing::ValuesIn(other_damages()), kDamageName);
 
 }  // namespace
 }  // namespace geotherm::test

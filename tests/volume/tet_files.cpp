@@ -56,7 +56,7 @@ void put_point(Out& out, const Vec3& p) {
   out << static_cast<Real>(p.x()) << static_cast<Real>(p.y()) << static_cast<Real>(p.z());
 }
 
-std::string medit() {
+std::string medit_tets() {
   Out out;
   out.words("# a box\nMeshVersionFormatted 2\nDimension\n3\nVertices 8\n");
   for (const Vec3& p : small_box().positions()) {
@@ -338,7 +338,7 @@ std::string ele_text(int first) {
 }
 
 std::vector<TetSample> tet_samples() {
-  return {{"Medit", "a.mesh", medit()},
+  return {{"Medit", "a.mesh", medit_tets()},
           {"MeditFloats", "a.meshb", meshb<float, std::int32_t, std::int32_t>(1, kLittle)},
           {"MeditDoubles", "a.meshb", meshb<double, std::int32_t, std::int32_t>(2, kLittle)},
           {"MeditBig", "a.meshb", meshb<double, std::int64_t, std::int32_t>(3, kBig)},

@@ -67,14 +67,14 @@ class Sliced {
   SlicedSurface surface;
 };
 
-const Vec3 kBox(2, 1.5, 1);
+const Vec3 kBoxSides(2, 1.5, 1);
 
 class BoxSlices : public testing::TestWithParam<double> {};
 
 TEST_P(BoxSlices, HaveTheAreaOfTheCrossSectionAndCloseWhatIsLeft) {
-  const TetMesh box = make_box_tets(8, 6, 4, kBox);
+  const TetMesh box = make_box_tets(8, 6, 4, kBoxSides);
   const double at = GetParam();
-  const Sliced sliced(box, {Vec3::UnitX(), at * kBox.x()});
+  const Sliced sliced(box, {Vec3::UnitX(), at * kBoxSides.x()});
   EXPECT_NEAR(sliced.cut_area(Vec3::UnitX()), at > 0 ? 1.5 * 1 : 0, kRounding);
   EXPECT_NEAR(sliced.area_vectors().norm(), 0, kRounding);
   EXPECT_NEAR(sliced.volume(), at * 3, 3 * kNear);
@@ -144,7 +144,7 @@ TEST(TetSlices, HaveEveryPointOnThePlaneAndNoneOfTheirFacesSharesACornerWithTheB
 }
 
 TEST(TetSlices, CutFacesAloneWhereThereAreNoTets) {
-  const TetMesh box = make_box_tets(4, 3, 2, kBox);
+  const TetMesh box = make_box_tets(4, 3, 2, kBoxSides);
   const auto border = boundary(box);
   const SlicedSurface left = slice(box.positions(), border->faces, {}, {Vec3::UnitY(), 0.6}, 1e-9);
   ASSERT_FALSE(left.faces.empty());

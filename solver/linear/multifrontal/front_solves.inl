@@ -24,13 +24,15 @@ using Slab = Group<kSlab>;
 /// and the hardware prefetcher misses where they begin (a quarter of the time at a million faces).
 constexpr std::ptrdiff_t kAhead = 6144;
 
-/// Widens a tile to doubles in memory. A processor broadcasts a factor from memory at no cost, but
-/// has to shuffle one out of a register; the empty assembly statement keeps the compiler from doing
-/// the latter.
+/// Widens a tile to doubles in memory; columns that it lacks keep their numbers. A processor
+/// broadcasts a factor from memory at no cost, but has to shuffle one out of a register; the empty
+/// assembly statement keeps the compiler from doing the latter.
 template <int N, class T>
-inline void widen_tile(const T* values, Index rows, double* out) {
+inline void widen_tile(const T* values, Index columns, Index rows, double* out) {
 #pragma GCC unroll 8
-  for (int c = 0; c < N; ++c) Slab::load(values + c * rows).store(out + c * kSlab);
+  for (int c = 0; c < N; ++c) {
+    if (c < columns) Slab::load(values + c * rows).store(out + c * kSlab);
+  }
   __asm__ __volatile__("" : : "r"(out) : "memory");
 }
 
@@ -82,9 +84,10 @@ inline const T* add_columns(const T* values, Index rows, const double* z, Slab (
   return values;
 }
 
+/// One block of columns, of which there are N, or fewer where K > 1: `columns`.
 template <int K, int N, class T>
-inline const T* forward_block(const T* values, Index own_rows, Index below, double* own,
-                              double* under, bool fresh) {
+inline const T* forward_block(const T* values, Index columns, Index own_rows, Index below,
+                              double* own, double* under, bool fresh) {
   if constexpr (K == 1) {
     Slab x[N];
 #pragma GCC unroll 8
@@ -98,24 +101,26 @@ inline const T* forward_block(const T* values, Index own_rows, Index below, doub
     // factors.
     Group<K> x[N];
 #pragma GCC unroll 8
-    for (int c = 0; c < N; ++c) x[c] = Group<K>::load(own + c * K);
+    for (int c = 0; c < N; ++c) {
+      x[c] = c < columns ? Group<K>::load(own + c * K) : Group<K>::zero();
+    }
+    double factor[kSlab * N] = {};
     const auto add = [&](Index rows, double* y, bool empty) {
       while (rows > 0) {
         const Index here = rows < kSlab ? rows : kSlab;
-        double factor[kSlab * N];
-        widen_tile<N>(values, here, factor);
+        widen_tile<N>(values, columns, here, factor);
         for (Index r = 0; r < here; ++r, y += K) {
           Group<K> sum = empty ? Group<K>::zero() : Group<K>::load(y);
 #pragma GCC unroll 8
           for (int c = 0; c < N; ++c) sum.add(factor[c * kSlab + r], x[c]);
           sum.store(y);
         }
-        values += here * N;
+        values += here * columns;
         rows -= here;
       }
     };
-    add(N, own, true);
-    add(own_rows - N, own + kSlab * K, false);
+    add(columns, own, true);
+    add(own_rows - columns, own + kSlab * K, false);
     add(below, under, fresh);
     return values;
   }
@@ -131,8 +136,8 @@ inline Slab sums_of_lanes(const Slab (&sum)[N]) {
 }
 
 template <int K, int N, class T>
-inline const T* backward_block(const T* values, Index own_rows, Index below, double* own,
-                               const double* under) {
+inline const T* backward_block(const T* values, Index columns, Index own_rows, Index below,
+                               double* own, const double* under) {
   if constexpr (K == 1) {
     Slab sum[N];
 #pragma GCC unroll 8
@@ -153,12 +158,12 @@ inline const T* backward_block(const T* values, Index own_rows, Index below, dou
     Group<K> sum[N];
 #pragma GCC unroll 8
     for (int c = 0; c < N; ++c) sum[c] = Group<K>::zero();
+    double factor[kSlab * N] = {};
     const auto add = [&](Index rows, const double* z) {
       for (Index first = (rows - 1) / kSlab * kSlab; first >= 0 && rows > 0; first -= kSlab) {
         const Index here = rows - first < kSlab ? rows - first : kSlab;
-        values -= here * N;
-        double factor[kSlab * N];
-        widen_tile<N>(values, here, factor);
+        values -= here * columns;
+        widen_tile<N>(values, columns, here, factor);
         for (Index r = 0; r < here; ++r) {
           const Group<K> at = Group<K>::load(z + (first + r) * K);
 #pragma GCC unroll 8
@@ -169,31 +174,33 @@ inline const T* backward_block(const T* values, Index own_rows, Index below, dou
     add(below, under);
     add(own_rows, own);
 #pragma GCC unroll 8
-    for (int c = 0; c < N; ++c) sum[c].store(own + c * K);
+    for (int c = 0; c < N; ++c) {
+      if (c < columns) sum[c].store(own + c * K);
+    }
     return values;
   }
 }
 
-/// Calls body<N>() for a number of columns from 1 to 8.
-template <class Body>
+/// Calls body<N>() for the last columns of a front, 1 to 7 of them; with several right sides N may
+/// be one more, since half as many functions take half as long to compile.
+template <int K, class Body>
 inline void with_columns(Index columns, const Body& body) {
+  constexpr int kMore = K == 1 ? 0 : 1;
   switch (columns) {
     case 1:
-      return body.template operator()<1>();
+      return body.template operator()<1 + kMore>();
     case 2:
       return body.template operator()<2>();
     case 3:
-      return body.template operator()<3>();
+      return body.template operator()<3 + kMore>();
     case 4:
       return body.template operator()<4>();
     case 5:
-      return body.template operator()<5>();
+      return body.template operator()<5 + kMore>();
     case 6:
       return body.template operator()<6>();
-    case 7:
-      return body.template operator()<7>();
     default:
-      return body.template operator()<8>();
+      return body.template operator()<7 + kMore>();
   }
 }
 
@@ -203,13 +210,14 @@ void forward(const StoredFront& front, double* x, bool fresh) {
   double* const under = x + static_cast<std::ptrdiff_t>(padded(front.width)) * K;
   Index column = 0;
   for (; column + kSlab <= front.width; column += kSlab) {
-    values = forward_block<K, kSlab>(values, front.width - column, front.below,
+    values = forward_block<K, kSlab>(values, kSlab, front.width - column, front.below,
                                      x + static_cast<std::ptrdiff_t>(column) * K, under, fresh);
     fresh = false;
   }
   if (column == front.width) return;
-  with_columns(front.width - column, [&]<int N>() {
-    forward_block<K, N>(values, front.width - column, front.below,
+  const Index last = front.width - column;
+  with_columns<K>(last, [&]<int N>() {
+    forward_block<K, N>(values, last, last, front.below,
                         x + static_cast<std::ptrdiff_t>(column) * K, under, fresh);
   });
 }
@@ -251,23 +259,23 @@ void backward(const StoredFront& front, double* x, const double* above, const In
   if (is_zero(under, std::int64_t{front.below} * K) && is_zero(x, std::int64_t{front.width} * K)) {
     return;
   }
-  const std::int64_t last = front.width % kSlab;
-  Index column = static_cast<Index>(front.width - last);
+  const Index last = front.width % kSlab;
+  Index column = front.width - last;
   // Blocks of eight columns hold 8 (rows from their first column on) numbers each.
   const std::int64_t whole = column / kSlab;
   const std::int64_t rows = front.width + std::int64_t{front.below};
   const auto* values = static_cast<const T*>(front.values) +
                        kSlab * (whole * rows - kSlab * (whole * (whole - 1) / 2)) +
-                       last * (last + front.below);
+                       last * (last + std::int64_t{front.below});
   if (last > 0) {
-    with_columns(static_cast<Index>(last), [&]<int N>() {
-      values = backward_block<K, N>(values, static_cast<Index>(last), front.below,
+    with_columns<K>(last, [&]<int N>() {
+      values = backward_block<K, N>(values, last, last, front.below,
                                     x + static_cast<std::ptrdiff_t>(column) * K, under);
     });
   }
   while (column > 0) {
     column -= kSlab;
-    values = backward_block<K, kSlab>(values, front.width - column, front.below,
+    values = backward_block<K, kSlab>(values, kSlab, front.width - column, front.below,
                                       x + static_cast<std::ptrdiff_t>(column) * K, under);
   }
 }
