@@ -19,11 +19,11 @@ if(GEOTHERM_SANITIZE)
 endif()
 
 # The compiler looks for memory to use again from 128 MB on, a tenth of its time: later, where there is
-# plenty for each of the processes that compile.
+# plenty for each of the processes that compile, which then take up to 4 GB in place of 2.6.
 cmake_host_system_information(RESULT _megabytes QUERY TOTAL_PHYSICAL_MEMORY)
 cmake_host_system_information(RESULT _cores QUERY NUMBER_OF_LOGICAL_CORES)
 math(EXPR _megabytes_each "${_megabytes} / ${_cores}")
-if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND _megabytes_each GREATER 4000)
+if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND _megabytes_each GREATER 6000)
   add_compile_options(--param=ggc-min-heapsize=2000000)
 endif()
 
@@ -43,7 +43,7 @@ function(geotherm_target name)
 endfunction()
 
 # geotherm_compile_together(TARGET [COUNT]): all sources of its list at once, or COUNT at a time where
-# that would need more than 3 GB. Headers (CLI11, JSON, Vulkan, Dear ImGui, GoogleTest) and templates
+# that would need more memory than the scripts expect (scripts/common.sh). Headers (CLI11, JSON, Vulkan, Dear ImGui, GoogleTest) and templates
 # take longer to compile than sources do. Names in anonymous namespaces must differ within a target:
 # one compiler error tells. Off in the presets dev and tidy, where a missing include must be noticed.
 function(geotherm_compile_together name)

@@ -11,11 +11,11 @@ fail() {
   exit 1
 }
 
-# Cores to build with; each compiler may want 1.5 GB.
+# Cores to build with; each compiler may want 2.6 GB.
 job_count() {
   local cores memory
   cores=$(nproc 2>/dev/null || echo 2)
-  memory=$(awk '/^MemAvailable/ { print int($2 / 1500000) }' /proc/meminfo 2>/dev/null || echo 2)
+  memory=$(awk '/^MemAvailable/ { print int($2 / 2600000) }' /proc/meminfo 2>/dev/null || echo 2)
   if [ "${memory:-0}" -lt 1 ]; then memory=1; fi
   if [ "$cores" -lt "$memory" ]; then echo "$cores"; else echo "$memory"; fi
 }
