@@ -6,6 +6,5 @@ set(head "// Made from ${SYMBOL}'s file by cmake/embed_file.cmake.\n")
 file(WRITE "${OUTPUT}.h" "${head}#pragma once\n#include <span>\n"
      "namespace geotherm::embedded {\nstd::span<const unsigned char> ${SYMBOL}();\n}\n")
 file(WRITE "${OUTPUT}.cpp" "${head}#include \"embedded/${SYMBOL}.h\"\n"
-     "namespace geotherm::embedded {\nnamespace {\n"
-     "alignas(16) constexpr unsigned char kBytes[] = {${bytes}};\n}\n"
-     "std::span<const unsigned char> ${SYMBOL}() { return kBytes; }\n}\n")
+     "namespace geotherm::embedded {\nstd::span<const unsigned char> ${SYMBOL}() {\n"
+     "  alignas(16) static constexpr unsigned char kBytes[] = {${bytes}};\n  return kBytes;\n}\n}\n")

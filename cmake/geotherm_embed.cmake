@@ -7,13 +7,20 @@ set(GEOTHERM_EMBED_SCRIPT "${CMAKE_CURRENT_LIST_DIR}/embed_file.cmake")
 function(geotherm_embed target symbol file)
   set(folder "${CMAKE_CURRENT_BINARY_DIR}/${target}_embedded")
   set(out "${folder}/embedded/${symbol}")
+  set(library ${target}_embedded)
+  if(NOT TARGET ${library})
+    # The files of the target itself would be made after all that it links.
+    add_library(${library} OBJECT)
+    geotherm_target(${library})
+    geotherm_compile_together(${library})
+    target_include_directories(${library} PUBLIC "${folder}")
+    target_link_libraries(${target} PRIVATE ${library})
+  endif()
   add_custom_command(
     OUTPUT "${out}.cpp" "${out}.h"
     COMMAND "${CMAKE_COMMAND}" "-DINPUT=${file}" "-DOUTPUT=${out}" "-DSYMBOL=${symbol}"
             -P "${GEOTHERM_EMBED_SCRIPT}"
     DEPENDS "${file}" "${GEOTHERM_EMBED_SCRIPT}"
     COMMENT "Embedding ${symbol}" VERBATIM)
-  target_sources(${target} PRIVATE "${out}.cpp" "${out}.h")
-  set_source_files_properties("${out}.cpp" PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
-  target_include_directories(${target} PRIVATE "${folder}")
+  target_sources(${library} PRIVATE "${out}.cpp" "${out}.h")
 endfunction()
