@@ -43,9 +43,10 @@ function(geotherm_target name)
 endfunction()
 
 # geotherm_compile_together(TARGET [COUNT]): all sources of its list at once, or COUNT at a time where
-# that would need more memory than the scripts expect (scripts/common.sh). Headers (CLI11, JSON, Vulkan, Dear ImGui, GoogleTest) and templates
-# take longer to compile than sources do. Names in anonymous namespaces must differ within a target:
-# one compiler error tells. Off in the presets dev and tidy, where a missing include must be noticed.
+# that would need more memory than the scripts expect (scripts/common.sh). Headers (CLI11, JSON, Vulkan,
+# Dear ImGui, GoogleTest) and templates take longer to compile than sources do. Names in anonymous
+# namespaces must differ within a target: one compiler error tells. Off in the presets dev and tidy,
+# where a missing include must be noticed.
 function(geotherm_compile_together name)
   if(NOT GEOTHERM_UNITY)
     return()

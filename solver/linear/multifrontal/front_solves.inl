@@ -24,14 +24,15 @@ using Slab = Group<kSlab>;
 /// and the hardware prefetcher misses where they begin (a quarter of the time at a million faces).
 constexpr std::ptrdiff_t kAhead = 6144;
 
-/// Widens a tile to doubles in memory; columns that it lacks keep their numbers. A processor
+/// Widens a tile of N columns, or of one less, which is then 0, to doubles in memory. A processor
 /// broadcasts a factor from memory at no cost, but has to shuffle one out of a register; the empty
 /// assembly statement keeps the compiler from doing the latter.
 template <int N, class T>
 inline void widen_tile(const T* values, Index columns, Index rows, double* out) {
 #pragma GCC unroll 8
   for (int c = 0; c < N; ++c) {
-    if (c < columns) Slab::load(values + c * rows).store(out + c * kSlab);
+    const bool present = c + 1 < N || columns == N;
+    (present ? Slab::load(values + c * rows) : Slab::zero()).store(out + c * kSlab);
   }
   __asm__ __volatile__("" : : "r"(out) : "memory");
 }
@@ -84,7 +85,7 @@ inline const T* add_columns(const T* values, Index rows, const double* z, Slab (
   return values;
 }
 
-/// One block of columns, of which there are N, or fewer where K > 1: `columns`.
+/// One block of N columns, or where K > 1 of one less: `columns`.
 template <int K, int N, class T>
 inline const T* forward_block(const T* values, Index columns, Index own_rows, Index below,
                               double* own, double* under, bool fresh) {
@@ -104,10 +105,10 @@ inline const T* forward_block(const T* values, Index columns, Index own_rows, In
     for (int c = 0; c < N; ++c) {
       x[c] = c < columns ? Group<K>::load(own + c * K) : Group<K>::zero();
     }
-    double factor[kSlab * N] = {};
     const auto add = [&](Index rows, double* y, bool empty) {
       while (rows > 0) {
         const Index here = rows < kSlab ? rows : kSlab;
+        double factor[kSlab * N];
         widen_tile<N>(values, columns, here, factor);
         for (Index r = 0; r < here; ++r, y += K) {
           Group<K> sum = empty ? Group<K>::zero() : Group<K>::load(y);
@@ -158,11 +159,11 @@ inline const T* backward_block(const T* values, Index columns, Index own_rows, I
     Group<K> sum[N];
 #pragma GCC unroll 8
     for (int c = 0; c < N; ++c) sum[c] = Group<K>::zero();
-    double factor[kSlab * N] = {};
     const auto add = [&](Index rows, const double* z) {
       for (Index first = (rows - 1) / kSlab * kSlab; first >= 0 && rows > 0; first -= kSlab) {
         const Index here = rows - first < kSlab ? rows - first : kSlab;
         values -= here * columns;
+        double factor[kSlab * N];
         widen_tile<N>(values, columns, here, factor);
         for (Index r = 0; r < here; ++r) {
           const Group<K> at = Group<K>::load(z + (first + r) * K);
