@@ -3,14 +3,11 @@
 
 #include <gtest/gtest.h>
 
-#include <limits>
-
 #include "solver/core/text.h"
+#include "tests/support/compare.h"
 
 namespace geotherm::test {
 namespace {
-
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 DistanceResult with_residuals(double heat, double poisson) {
   DistanceResult result;

@@ -3,8 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
 
+#include "tests/support/compare.h"
 #include "tests/support/solve.h"
 
 namespace geotherm::test {
@@ -15,8 +15,6 @@ struct BadSource {
   SourceSet sources;
   const char* says;  ///< part of the message
 };
-
-constexpr double kBadNumber = std::numeric_limits<double>::quiet_NaN();
 
 SourceSet at(const SurfacePoint& point) { return {{SurfacePoint::at_vertex(0), point}, {}}; }
 
@@ -36,7 +34,7 @@ const BadSource kBadSources[] = {
     {"negative_face", at(SurfacePoint::in_face(-3, {0.2, 0.3, 0.5})), "-3"},
     {"weights_that_sum_to_two", at(SurfacePoint::in_face(7, {1, 0.5, 0.5})), "2"},
     {"negative_weight", at(SurfacePoint::in_face(7, {-0.5, 1, 0.5})), "7"},
-    {"weight_that_is_no_number", at(SurfacePoint::in_face(7, {kBadNumber, 0.5, 0.5})), "7"},
+    {"weight_that_is_no_number", at(SurfacePoint::in_face(7, {kNan, 0.5, 0.5})), "7"},
     {"face_without_an_inside", at(SurfacePoint::in_face(320, {0.2, 0.3, 0.5})), "320"},
     {"edge_with_a_vertex_beyond_the_last", {{}, {{0, 500}}}, "500"},
     {"offset", with_offset(0.25), "wavefront"},
@@ -88,7 +86,7 @@ const BadOption kBadOptions[] = {
      "factor"},
     {"negative_factor", [](HeatOptions& o) { o.time_step.factor = -1; }, ErrorCode::kBadInput,
      "-1"},
-    {"factor_that_is_no_number", [](HeatOptions& o) { o.time_step.factor = kBadNumber; },
+    {"factor_that_is_no_number", [](HeatOptions& o) { o.time_step.factor = kNan; },
      ErrorCode::kBadInput, "factor"},
     {"endless_time",
      [](HeatOptions& o) {

@@ -4,13 +4,13 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
 #include <queue>
 #include <random>
 
 #include "geotherm/geotherm.h"
 #include "tests/support/cells.h"
+#include "tests/support/compare.h"
 #include "tests/support/mesh_zoo.h"
 #include "tests/support/sanitized.h"
 #include "tests/support/solve.h"
@@ -345,7 +345,6 @@ TEST_P(RefusedCells, AreOneLine) {
       << method.error().message;
 }
 
-constexpr double kNotANumber = std::numeric_limits<double>::quiet_NaN();
 const BadCells kBad[] = {
     {"none", [](CellComplex& c) { c = {}; }, "there are no cells"},
     {"dimension", [](CellComplex& c) { c.dimension = 4; }, "the dimension is 4"},
@@ -355,10 +354,10 @@ const BadCells kBad[] = {
     {"middle", [](CellComplex& c) { c.start[1] = -7; }, "corners"},
     {"gradients", [](CellComplex& c) { c.gradients.pop_back(); }, "numbers of gradients"},
     {"constant", [](CellComplex& c) { c.gradients[0] += 1; }, "sum to"},
-    {"nan", [](CellComplex& c) { c.gradients[0] = kNotANumber; }, "sum to"},
+    {"nan", [](CellComplex& c) { c.gradients[0] = kNan; }, "sum to"},
     {"measure", [](CellComplex& c) { c.measures[3] = 0; }, "measure 0"},
-    {"width", [](CellComplex& c) { c.widths[3] = kNotANumber; }, "width"},
-    {"place", [](CellComplex& c) { c.positions[3][1] = kNotANumber; }, "vertex 3"},
+    {"width", [](CellComplex& c) { c.widths[3] = kNan; }, "width"},
+    {"place", [](CellComplex& c) { c.positions[3][1] = kNan; }, "vertex 3"},
 };
 INSTANTIATE_TEST_SUITE_P(Arrays, RefusedCells, testing::ValuesIn(kBad),
                          [](const auto& test) { return std::string(test.param.name); });

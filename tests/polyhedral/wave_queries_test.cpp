@@ -5,7 +5,6 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <span>
 
 #include "tests/polyhedral/wave_fixture.h"
@@ -13,8 +12,6 @@
 
 namespace geotherm::test {
 namespace {
-
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 /// Mean of | |grad d| - 1 | by area: d = d_0 + g . (p - p_0) at all corners, g in the face's plane.
 double mean_slope_error(const Draft& draft, std::span<const double> d) {

@@ -11,6 +11,8 @@
 
 namespace geotherm::test {
 
+inline constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+
 /// Largest finite |a_i|.
 inline double largest(std::span<const double> a) {
   double most = 0;
