@@ -10,7 +10,7 @@
 
 namespace geotherm::bench {
 
-/// As printf. At most 511 characters.
+/// A text formatted as by printf, of at most 511 characters.
 __attribute__((format(printf, 1, 2))) std::string format(const char* pattern, ...);
 
 /// A number, a dash where there is none.

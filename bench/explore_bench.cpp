@@ -65,10 +65,10 @@ class Hand {
     return frame();
   }
 
-  /// As while something is dragged, or as when the picture rests.
+  /// Draws a picture as the viewer does while something is dragged, or when the picture rests.
   Result<void> frame(Detail detail = Detail::kFewFaces) { return screen_->draw({}, detail); }
 
-  /// Until what is shown is what the command asks for.
+  /// Submits a command and waits until what is shown is what the command asks for.
   Result<void> follow(const Command& command) {
     const std::uint64_t before = session_.explored().version;
     if (auto done = session_.submit(command); !done) return done;

@@ -21,7 +21,7 @@ struct DeviceOptions {
   const Window* window = nullptr;
 };
 
-/// A device of this machine, as `geotherm devices` lists it.
+/// A device of this machine, and whether it can be used.
 struct DeviceInfo {
   std::string name;
   std::string kind;  ///< "discrete GPU", "integrated GPU", "virtual GPU", "software", "other"

@@ -9,6 +9,7 @@
 #include "geotherm/polyhedral_methods.h"
 #include "solver/core/parallel.h"
 #include "solver/grid/grid_marching.h"
+#include "solver/heat/peak_memory.h"
 #include "solver/method/mapped_method.h"
 #include "solver/polyhedral/wave_surface.h"
 #include "solver/volume/tet_marching_method.h"
@@ -50,7 +51,7 @@ Built on_waves(std::shared_ptr<const WaveSurface> waves, const MethodOptions& op
                                           progress, earlier));
 }
 
-/// What a method walks over; null for others, and for those on another mesh.
+/// The surface that a method walks over; null for methods that walk over none.
 std::shared_ptr<const WaveSurface> waves_of(const DistanceMethod* method) {
   if (const auto* wave = dynamic_cast<const WavefrontMethod*>(method)) return wave->surface();
   if (const auto* march = dynamic_cast<const FastMarchingMethod*>(method)) return march->surface();
@@ -58,7 +59,7 @@ std::shared_ptr<const WaveSurface> waves_of(const DistanceMethod* method) {
   return nullptr;
 }
 
-/// On the mesh as it is.
+/// Builds the method on the mesh as it is, neither refined nor welded.
 Built build_plain(std::shared_ptr<const TriangleMesh> mesh, const MethodOptions& options,
                   const Progress& progress, std::shared_ptr<const WaveSurface> waves) {
   if (options.method == MethodKind::kHeat) {
@@ -84,6 +85,10 @@ bool needs_mapping(const TriangleMesh& mesh, const MethodOptions& options) {
 Result<Mapping> mapping_of(std::shared_ptr<const TriangleMesh> mesh, const MethodOptions& options,
                            const Progress& progress) {
   if (options.refine > 0 && !report(progress, "refine", 0.0)) return cancelled_error();
+  if (options.refine != 0) {
+    auto fits = check_refined_memory(mesh->face_count(), options.refine);
+    if (!fits) return fits.error();
+  }
   auto mapping = MeshMapping::build(std::move(mesh), options.refine);
   if (!mapping) return mapping.error();
   return std::make_shared<const MeshMapping>(*std::move(mapping));

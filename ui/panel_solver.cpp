@@ -18,15 +18,15 @@ namespace {
 
 constexpr double kMinFactor = 0.01, kMaxFactor = 1000;  ///< of the slider
 
-/// The choice of a setting whose text is NAME or NAME:VALUE. `value` gives what follows a name.
-template <class Value>
-void draw_named_choice(Frame& frame, const app::Setting& setting, Value value) {
+/// The choice of a setting whose texts are NAME or NAME:VALUE, among these.
+void draw_named_choice(Frame& frame, const app::Setting& setting,
+                       const std::vector<std::string>& texts) {
   std::vector<std::string> names;
-  for (const std::string& each : setting.values()) names.push_back(name_part(each));
+  for (const std::string& text : texts) names.push_back(name_part(text));
   draw_setting_label(frame, setting);
   const std::string now = name_part(setting.get(frame.state()));
   if (const auto chosen = draw_choice(frame, setting.name, now, names)) {
-    frame.set(setting.name, *chosen + value(*chosen));
+    frame.set(setting.name, *std::ranges::find(texts, *chosen, name_part));
   }
 }
 
@@ -103,9 +103,11 @@ void draw_error_over_factor(Frame& frame) {
 }
 
 void draw_time(Frame& frame, const app::Setting& setting) {
-  draw_named_choice(frame, setting, [&frame](const std::string& name) {
-    return name == "absolute" ? ":" + rounded_time(frame) : std::string();
-  });
+  std::vector<std::string> rules = setting.values();
+  for (std::string& rule : rules) {
+    if (!value_part(rule).empty()) rule = name_part(rule) + ":" + rounded_time(frame);
+  }
+  draw_named_choice(frame, setting, rules);
   const TimeStep& step = frame.state().options.time_step;
   if (step.rule == TimeRule::kAbsolute) {
     draw_label(frame, "t", "Diffusion time, model units squared.");
@@ -135,9 +137,7 @@ void draw_time(Frame& frame, const app::Setting& setting) {
 }
 
 void draw_constraint(Frame& frame, const app::Setting& setting) {
-  draw_named_choice(frame, setting, [](const std::string& name) {
-    return name == "penalty" ? std::string(":10") : std::string();
-  });
+  draw_named_choice(frame, setting, setting.values());
   const std::string text = setting_text(frame, "constraint");
   const std::string name = name_part(text);
   if (name == "penalty") {
@@ -219,19 +219,11 @@ void draw_row(Frame& frame, const app::Setting& setting) {
   draw_setting(frame, setting);
 }
 
-/// What most people change; all else waits until it is asked for.
-bool is_usual_method(const app::Setting& setting) {
-  for (const char* name : {"method", "backend", "time-step", "time-factor", "refine"}) {
-    if (setting.name == name) return true;
-  }
-  return false;
-}
-
 void draw_rows(Frame& frame, bool usual) {
   const bool heat = frame.state().options.method == MethodKind::kHeat;
   for (const app::Setting& setting : app::settings()) {
     if (!setting.of_method() || (!heat && setting.of_heat)) continue;
-    if (is_usual_method(setting) == usual) draw_row(frame, setting);
+    if (setting.usual == usual) draw_row(frame, setting);
   }
 }
 

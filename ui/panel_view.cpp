@@ -11,23 +11,21 @@
 namespace geotherm::ui {
 namespace {
 
-void draw_colour_map(Frame& frame) {
-  draw_label(frame, "colours", "Colours of the distances.");
+void draw_colour_map(Frame& frame, const app::Setting& setting) {
+  draw_setting_label(frame, setting);
   const auto maps = frame.canvas.colour_maps();
-  const auto chosen = draw_choice(frame, "colour-map", frame.state().picture.colour_map, maps);
-  if (chosen) frame.set("colour-map", *chosen);
+  const auto chosen = draw_choice(frame, setting.name, frame.state().picture.colour_map, maps);
+  if (chosen) frame.set(setting.name, *chosen);
 }
 
 /// Two fields; an empty one is left to the data.
-void draw_range(Frame& frame) {
+void draw_range(Frame& frame, const app::Setting& setting) {
   const app::PictureSettings& picture = frame.state().picture;
   const auto text = [](const std::optional<double>& value) {
     return value ? exact(*value) : std::string();
   };
   std::string low = text(picture.range_min), high = text(picture.range_max);
-  draw_label(frame, "range",
-             "Distances at both ends of the colour map, model units; empty: 0 and "
-             "the largest.");
+  draw_setting_label(frame, setting);
   const float gap = ImGui::GetStyle().ItemInnerSpacing.x;
   ImGui::SetNextItemWidth((ImGui::GetContentRegionAvail().x - gap) / 2);
   const auto new_low = draw_field(frame, "range min", low, "auto");
@@ -37,16 +35,14 @@ void draw_range(Frame& frame) {
   if (!new_low && !new_high) return;
   low = new_low.value_or(low);
   high = new_high.value_or(high);
-  frame.set("range", low.empty() && high.empty() ? "auto" : low + ":" + high);
+  frame.set(setting.name, low.empty() && high.empty() ? "auto" : low + ":" + high);
 }
 
-void draw_spacing(Frame& frame) {
+void draw_spacing(Frame& frame, const app::Setting& setting) {
   const auto& spacing = frame.state().picture.line_spacing;
-  draw_label(frame, "contours",
-             "Distance between isolines, model units; 0: none; empty: a round "
-             "number that suits.");
-  if (const auto typed = draw_field(frame, "spacing", spacing ? exact(*spacing) : "", "auto")) {
-    frame.set("spacing", typed->empty() ? "auto" : *typed);
+  draw_setting_label(frame, setting);
+  if (const auto typed = draw_field(frame, setting.name, spacing ? exact(*spacing) : "", "auto")) {
+    frame.set(setting.name, typed->empty() ? "auto" : *typed);
   }
 }
 
@@ -88,18 +84,10 @@ void draw_peel(Frame& frame, const app::Setting& setting) {
     frame.set(setting.name, *chosen == "off" ? *chosen : *chosen + ":" + exact(peel.share));
   }
   if (peel.side == app::PeelSide::kOff) return;
-  draw_label(frame, "peel at", "Share of the largest distance.");
+  draw_label(frame, "peel at", setting.help);
   if (const auto share = draw_share_row(frame, "peel-at", peel.share)) {
     frame.set(setting.name, side + ":" + *share);
   }
-}
-
-/// What most people change; all else waits until it is asked for.
-bool is_usual(const app::Setting& setting) {
-  for (const char* name : {"view", "colour-map", "background", "spacing", "slice"}) {
-    if (setting.name == name) return true;
-  }
-  return false;
 }
 
 /// The switches, two side by side.
@@ -124,9 +112,9 @@ void draw_camera_number(Frame& frame, const app::Setting& setting) {
   }
 }
 
-void draw_pan(Frame& frame) {
+void draw_pan(Frame& frame, const app::Setting& setting) {
   const app::CameraSettings& camera = frame.state().picture.camera;
-  draw_label(frame, "shift", "Right and up, in picture heights.");
+  draw_setting_label(frame, setting);
   std::string right = app::significant(camera.pan_right, 4);
   std::string up = app::significant(camera.pan_up, 4);
   const float gap = ImGui::GetStyle().ItemInnerSpacing.x;
@@ -136,14 +124,14 @@ void draw_pan(Frame& frame) {
   ImGui::SetNextItemWidth(-FLT_MIN);
   const auto new_up = draw_field(frame, "pan up", up);
   if (!new_right && !new_up) return;
-  frame.set("pan", new_right.value_or(right) + ":" + new_up.value_or(up));
+  frame.set(setting.name, new_right.value_or(right) + ":" + new_up.value_or(up));
 }
 
 void draw_camera(Frame& frame) {
   for (const app::Setting& setting : app::settings()) {
     if (setting.group != app::SettingGroup::kCamera) continue;
     if (setting.name == "pan") {
-      draw_pan(frame);
+      draw_pan(frame, setting);
     } else if (setting.kind == app::SettingKind::kNumber) {
       draw_camera_number(frame, setting);
     } else {
@@ -177,13 +165,13 @@ void draw_picture_rows(Frame& frame, bool usual) {
     const bool is_switch = setting.kind == app::SettingKind::kSwitch;
     if (setting.group != app::SettingGroup::kPicture || is_switch) continue;
     if (setting.name == "size") continue;  // in the dialog that saves a picture
-    if (is_usual(setting) != usual) continue;
+    if (setting.usual != usual) continue;
     if (setting.name == "colour-map") {
-      draw_colour_map(frame);
+      draw_colour_map(frame, setting);
     } else if (setting.name == "range") {
-      draw_range(frame);
+      draw_range(frame, setting);
     } else if (setting.name == "spacing") {
-      draw_spacing(frame);
+      draw_spacing(frame, setting);
     } else if (setting.name == "slice-at") {
       draw_slice_at(frame, setting);
     } else if (setting.name == "peel") {

@@ -68,7 +68,7 @@ std::string short_name(const app::SourceSpec& source) {
            app::significant(point->position.y(), 3) + ", " +
            app::significant(point->position.z(), 3);
   }
-  if (std::holds_alternative<app::WholeBoundary>(source)) return "the whole border";
+  if (std::holds_alternative<app::WholeBoundary>(source)) return "the whole boundary";
   return app::to_text(source);
 }
 

@@ -93,7 +93,7 @@ Result<SpreadCall> spread_call(const geotherm_model* model, const geotherm_optio
                                         {out, "answer"}}) {
     if (auto there = require(pointer, called); !there) return there.error();
   }
-  if (auto surface = app::refuse_space(**object, "vectors and values are carried"); !surface) {
+  if (auto surface = app::refuse_space(**object, "carried vectors and values are"); !surface) {
     return surface.error();
   }
   const auto spread = spread_options(options);

@@ -286,7 +286,7 @@ GEOTHERM_API geotherm_status geotherm_relax(const geotherm_solver* solver,
  *
  * In a tangent frame, an angle in radians from e1 towards e2; frames are arrays of nine numbers:
  * e1, e2 and the normal. At a vertex e1 lies below its first edge, and angles are scaled to 2 pi
- * round it, but on the border; in a face e1 leads from its first corner to the second. */
+ * round it, but on the boundary; in a face e1 leads from its first corner to the second. */
 
 /* Polar coordinates of all vertices about one point: the arrays distances V, directions V (no
  * number where no path leads), frame 1 x 9. `method`: "exact" (or NULL; exact on the faces),

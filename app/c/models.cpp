@@ -49,14 +49,13 @@ app::Json settings_json() {
 }
 
 app::Json features_json() {
-  app::Json models = app::Json::array(), fields = app::Json::array();
+  app::Json models = app::Json::array();
   for (const app::BundledModel& model : app::bundled_models()) models.push_back(model.name);
-  for (const QualityField field : all_quality_fields()) fields.push_back(to_text(field));
   return {{"version", GEOTHERM_VERSION},        {"interface", GEOTHERM_INTERFACE},
           {"methods", all_names<MethodKind>()}, {"backends", backend_names()},
           {"mesh_formats", mesh_formats()},     {"point_formats", point_formats()},
           {"tet_formats", tet_formats()},       {"grid_formats", grid_formats()},
-          {"models", std::move(models)},        {"fields", std::move(fields)},
+          {"models", std::move(models)},        {"fields", all_names<QualityField>()},
           {"settings", settings_json()}};
 }
 

@@ -153,7 +153,8 @@ Result<app::Wanted> wanted_by(const Solver& solver, std::string_view words) {
   app::Wanted wanted;
   wanted.check.against = solver.check;
   const auto& space = solver.model().space;
-  const bool checks = !space || space->rival() != MethodKind::kHeat;  // there is a better method
+  const bool checks =
+      !space || space->reference_method() != MethodKind::kHeat;  // there is a better method
   while (!words.empty()) {
     const std::string_view word = words.substr(0, words.find(' '));
     words.remove_prefix(std::min(word.size() + 1, words.size()));

@@ -94,12 +94,12 @@ Result<geotherm_array> array_in(const Answer& answer, const std::string& name) {
   }
   if (name == "heat" && !result.heat.empty()) return view_of(std::span(result.heat), 1);
   if (name == "log_heat" && !result.log_heat.empty()) return view_of(std::span(result.log_heat), 1);
-  const auto field = parse_quality_field(name);
+  const auto field = parse<QualityField>(name);
   if (!field) {
     names = {"distances"};
     if (!result.nearest_source.empty()) names.emplace_back("nearest_source");
     if (!result.heat.empty()) names.insert(names.end(), {"heat", "log_heat"});
-    for (const QualityField each : all_quality_fields()) names.push_back(to_text(each));
+    for (std::string& each : all_names<QualityField>()) names.push_back(std::move(each));
     return no_name("array", name, names);
   }
   auto values = field_in(*answer.solved, *field);

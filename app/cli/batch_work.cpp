@@ -49,8 +49,9 @@ Result<std::map<std::string, std::string>> models_of(const std::string& word) {
   if (wild == std::string::npos) {
     if (is_bundled(word)) return std::map<std::string, std::string>{{word, word}};
     return Error{ErrorCode::kBadFile,
-                 one_line(word) + ": there is no such file",
-                 {"give files, or a pattern in quotes"}};
+                 one_line(word) + (fs::is_directory(word, unknown) ? ": this is a folder"
+                                                                   : ": there is no such file"),
+                 {"give files, or a pattern in quotes, such as 'shapes/*.ply'"}};
   }
   const std::size_t slash = word.rfind('/', wild);
   const std::string same = slash == std::string::npos ? "" : word.substr(0, slash + 1);

@@ -197,6 +197,19 @@ Result<std::size_t> jobs_of(const BatchArguments& arguments, const Ranks& ranks)
                {"give a whole number from 1"}};
 }
 
+/// What every model would be refused for. Errors: kBadInput, kNotAvailable.
+Result<void> check_words(const SolveArguments& typed, const std::string& format) {
+  if (const auto asked = settings_in(typed.settings); !asked) return asked.error();
+  if (const auto named = some_sources_of(typed.sources); !named) return named.error();
+  if (const auto check = check_settings(typed.check); !check) return check.error();
+  SolveArguments solve = typed;
+  solve.outputs = {"FILE.npy"};
+  if (auto fits = check_solve(solve); !fits) return fits;
+  solve.outputs = {"FILE." + format};
+  const auto fits = check_solve(solve);
+  return fits ? fits : about("--output-format", fits.error());
+}
+
 }  // namespace
 
 void add_batch_options(CLI::App& command, BatchArguments& arguments) {
@@ -248,12 +261,11 @@ Result<CommandOutput> run_batch(const BatchArguments& arguments, const Progress&
   if (!ranks) return ranks.error();
   const auto jobs = jobs_of(arguments, *ranks);
   if (!jobs) return jobs.error();
-  if (const auto asked = settings_in(arguments.solve.settings); !asked) return asked.error();
-  if (const auto named = some_sources_of(arguments.solve.sources); !named) return named.error();
-  std::vector<std::string> options = arguments.passed;
-  if (!arguments.solve.settings.has("threads")) options.push_back("--threads=1");
   std::string format = arguments.format.empty() ? "npy" : arguments.format;
   if (format.starts_with('.')) format.erase(0, 1);
+  if (auto fits = check_words(arguments.solve, format); !fits) return fits.error();
+  std::vector<std::string> options = arguments.passed;
+  if (!arguments.solve.settings.has("threads")) options.push_back("--threads=1");
   Outputs outputs;
   if (auto fits = expect_report(arguments.json, outputs); !fits) return fits.error();
   const auto begin = [&]() -> Result<std::vector<BatchTask>> {

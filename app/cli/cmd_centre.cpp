@@ -2,6 +2,7 @@
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <sstream>
 
 #include "app/cli/commands.h"
@@ -56,7 +57,8 @@ Result<std::vector<double>> weights_in(const std::string& text) {
   const auto is_number = [](const std::string& word) {
     return number_in<double>(word).has_value();
   };
-  if (!is_number(numbers.substr(0, numbers.find(',')))) {
+  const bool in_file = !is_number(numbers.substr(0, numbers.find(',')));
+  if (in_file) {
     const auto file = io::FileBytes::read(text);
     if (!file) return about("--weights", file.error());
     numbers = std::string(file->bytes());
@@ -65,14 +67,17 @@ Result<std::vector<double>> weights_in(const std::string& text) {
   std::istringstream words(numbers);
   for (std::string word; words >> word;) {
     const auto number = number_in<double>(word);
-    if (!number) {
-      return Error{ErrorCode::kBadInput,
+    if (!number || !(*number >= 0) || !std::isfinite(*number)) {
+      return Error{in_file ? ErrorCode::kBadFile : ErrorCode::kBadInput,
                    "--weights: '" + one_line(word) + "' is no weight",
                    {"give numbers from 0 on with commas between, or a file of them"}};
     }
     out.push_back(*number);
   }
-  return out;
+  if (std::ranges::any_of(out, [](double weight) { return weight > 0; })) return out;
+  return Error{in_file ? ErrorCode::kBadFile : ErrorCode::kBadInput,
+               "--weights: none is above 0",
+               {"give one that is"}};
 }
 
 Result<void> place(const std::vector<Source>& named, CentreFigures& figures) {
@@ -88,7 +93,12 @@ Result<void> place(const std::vector<Source>& named, CentreFigures& figures) {
     }
     figures.points.push_back(*point);
   }
-  return {};
+  const std::ptrdiff_t points = std::ssize(figures.points), weights = std::ssize(figures.weights);
+  if (weights == 0 || weights == points) return {};
+  return Error{ErrorCode::kBadInput,
+               "--weights: " + counted(weights, "weight", "weights") + " for " +
+                   counted(points, "point", "points"),
+               {"give one for each, or none"}};
 }
 
 Json centre_json(const TriangleMesh& mesh, const Centre& centre) {
@@ -179,6 +189,8 @@ void add_centre_options(CLI::App& command, CentreArguments& arguments) {
                         "the shortest paths from the centre to the points");
   add_quiet_option(command, arguments.quiet);
   add_setting_options(command, arguments.settings, {"method", "threads"});
+  command.get_option("--method")
+      ->description("what finds log maps: exact (default), wavefront, wavefront-fine");
   command.footer(
       "The report has the centre, further minima that are about as low, and the energy of each "
       "step. Log maps are exact unless --method names wavefront or wavefront-fine.\n"
@@ -195,8 +207,6 @@ Result<CommandOutput> run_centre(const CentreArguments& arguments, const Progres
   auto weights = weights_in(arguments.weights);
   if (!weights) return weights.error();
   Outputs outputs;
-  protect_inputs(arguments.model, {}, outputs);
-  outputs.protect(arguments.points, "the file of points");
   const auto expected = expect_line_files(arguments.files, outputs);
   if (!expected) return expected.error();
   auto model = load_model(arguments.model, asked->reading, progress);
@@ -217,6 +227,7 @@ Result<CommandOutput> run_centre(const CentreArguments& arguments, const Progres
   figures.centres = *std::move(centres);
   const auto& notes = figures.centres.warnings;
   figures.warnings.insert(figures.warnings.end(), notes.begin(), notes.end());
+  note_unused_picture(arguments.settings, arguments.files.outputs, figures.warnings);
 
   CommandOutput out{"", figures.warnings, {}};
   if (!arguments.files.outputs.empty()) {

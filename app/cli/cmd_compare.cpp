@@ -84,9 +84,6 @@ Result<Plan> plan_of(const CompareArguments& arguments) {
 }
 
 Result<void> expect_outputs(const CompareArguments& arguments, Outputs& outputs) {
-  for (const std::string& model : arguments.models) {
-    protect_inputs(model, arguments.sources, outputs);
-  }
   for (const auto& [path, option] : {std::pair{&arguments.json, "--json"},
                                      {&arguments.csv, "--csv"},
                                      {&arguments.html, "--html"}}) {
@@ -101,7 +98,7 @@ Result<void> choose_sources(const Model& model, const Plan& plan, CompareTask& t
                             std::vector<Warning>& warnings) {
   if (!plan.sources.empty()) {
     auto resolved = resolve_sources(plan.sources, model);
-    if (!resolved) return resolved.error();
+    if (!resolved) return about(one_line(model.name), resolved.error());
     warnings.insert(warnings.end(), resolved->warnings.begin(), resolved->warnings.end());
     task.queries.assign(static_cast<std::size_t>(plan.queries), resolved->set);
     task.batch.assign(kBatch, resolved->set);
@@ -177,11 +174,13 @@ void add_compare_options(CLI::App& command, CompareArguments& arguments) {
   add_setting_options(command, arguments.settings,
                       names_of(SettingGroup::kMethod, {"backend", "strict"}));
   command.footer(
-      "A solver that fails is a row with its message. Where all fail on a model the exit code is "
-      "1,\nand the rows are written all the same.\n"
-      "Without sources each query starts at another vertex, chosen at random, the same in each "
-      "run.\n"
-      "Errors are those against exact distances, or wavefront-fine on large meshes.\n"
+      std::string("A solver that fails is a row with its message. Where all fail on a model the "
+                  "exit code is 1,\nand the rows are written all the same.\n"
+                  "Without sources each query starts at another vertex, chosen at random, the same "
+                  "in each run.\n"
+                  "Errors are those of the first ") +
+      std::to_string(kErrorQueries) +
+      " queries against exact distances, or wavefront-fine on large meshes.\n"
       "Examples:\n  geotherm compare bunny terrain --backends all --csv table.csv\n"
       "  geotherm compare bunny --backends all,wavefront,fast-marching,exact");
 }

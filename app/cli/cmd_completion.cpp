@@ -27,39 +27,47 @@ struct CompletedCommand {
   bool takes_model = false;
 };
 
-/// The first clause of a description, on one line.
-std::string phrase(std::string text) {
+/// The help breaks its lines; a script has one for each option.
+std::string on_one_line(std::string text) {
   std::ranges::replace(text, '\n', ' ');
-  std::erase(text, '\'');
-  for (const char* end : {"; ", ": ", " (", ", default", ". "})
-    text = text.substr(0, text.find(end));
-  if (text.ends_with('.')) text.pop_back();
   return text;
 }
 
-/// The words among the values of the setting that has this option; a value with a colon is several
-/// words to a shell.
+/// The text with a backslash before each of these characters.
+std::string with_backslashes(const std::string& text, std::string_view before) {
+  std::string out;
+  for (const char c : text) {
+    if (before.find(c) != before.npos) out += '\\';
+    out += c;
+  }
+  return out;
+}
+
+/// The words among the values of an option; one with a colon is several words to a shell.
 std::vector<std::string> values_of(const std::string& option) {
   const Setting* const setting = find_setting(option);
   std::vector<std::string> values;
   if (setting != nullptr && setting->values != nullptr) values = setting->values();
+  if (option == "on-poor") values = all_names<OnPoor>();
   std::erase_if(values, [](const std::string& value) {
     return value.find_first_of(": '\"$&()") != std::string::npos;
   });
   return values;
 }
 
+/// What the values of options are called that are paths.
+constexpr std::string_view kPathValues[] = {"FILE", "FOLDER", "FRAMES"};
+
 CompletedOption completed(const CLI::Option& option) {
   CompletedOption out;
+  out.takes_value = option.get_items_expected_max() > 0;
   for (const std::string& name : option.get_snames()) out.names.push_back("-" + name);
   for (const std::string& name : option.get_lnames()) {
     out.names.push_back("--" + name);
-    if (out.values.empty()) out.values = values_of(name);
+    if (out.takes_value && out.values.empty()) out.values = values_of(name);
   }
-  out.description = phrase(option.get_description());
-  out.takes_value = option.get_type_size_max() > 0;
-  const std::string type = option.get_type_name();
-  out.is_file = type.find("FILE") != type.npos || type == "FRAMES";
+  out.description = on_one_line(option.get_description());
+  out.is_file = std::ranges::count(kPathValues, option.get_type_name()) > 0;
   return out;
 }
 
@@ -70,7 +78,7 @@ std::vector<CompletedCommand> completed(const CLI::App& root) {
   std::vector<CompletedCommand> all;
   for (const std::string& name : command_names(root)) {
     const CLI::App& command = *root.get_subcommand(name);
-    CompletedCommand one{name, phrase(command.get_description()), {}};
+    CompletedCommand one{name, on_one_line(command.get_description()), {}};
     for (const CLI::Option* option : command.get_options()) {
       if (option->nonpositional()) one.options.push_back(completed(*option));
       one.takes_model |= option->get_name() == "MODEL";
@@ -148,12 +156,13 @@ std::string bash_script(const std::vector<CompletedCommand>& commands, const CLI
          "complete -o filenames -F _geotherm geotherm\n";
 }
 
-/// Fit for a description between square brackets.
-std::string for_zsh(std::string text) {
-  for (std::size_t i = 0; i < text.size(); ++i) {
-    if (text[i] == '[' || text[i] == ']' || text[i] == ':') text.insert(i++, 1, '\\');
+/// Fit for a description between quotes and square brackets.
+std::string for_zsh(const std::string& text) {
+  std::string out;
+  for (const char c : with_backslashes(text, "\\[]:")) {
+    c == '\'' ? out += "'\\''" : out += c;
   }
-  return text;
+  return out;
 }
 
 std::string zsh_script(const std::vector<CompletedCommand>& commands, const CLI::App& root) {
@@ -200,14 +209,19 @@ std::string zsh_script(const std::vector<CompletedCommand>& commands, const CLI:
          "compdef _geotherm geotherm\n";
 }
 
+/// The end of a line, which describes what the line is about.
+std::string for_fish(const std::string& description) {
+  return " -d '" + with_backslashes(description, "\\'") + "'\n";
+}
+
 std::string fish_script(const std::vector<CompletedCommand>& commands, const CLI::App& root) {
   std::string script =
       "# What fish completes behind geotherm; made by: geotherm completion fish\n"
       "complete -c geotherm -n __fish_use_subcommand -a '" +
-      model_names() + "' -d 'bundled model'\n";
+      model_names() + "'" + for_fish("bundled model");
   for (const CompletedCommand& command : commands) {
-    script += "complete -c geotherm -n __fish_use_subcommand -a " + command.name + " -d '" +
-              command.description + "'\n";
+    script += "complete -c geotherm -n __fish_use_subcommand -a " + command.name +
+              for_fish(command.description);
     std::string when = "__fish_seen_subcommand_from " + command.name;
     if (command.name == kOpens) {
       when = "not __fish_use_subcommand; and not __fish_seen_subcommand_from";
@@ -225,7 +239,7 @@ std::string fish_script(const std::vector<CompletedCommand>& commands, const CLI
       }
       if (option.takes_value) script += option.is_file ? " -r" : " -x";
       if (!option.values.empty()) script += " -a '" + joined(option.values, " ") + "'";
-      script += " -d '" + option.description + "'\n";
+      script += for_fish(option.description);
     }
   }
   return script;

@@ -69,7 +69,7 @@ Json work_json(const DirectionWork& work, const char* stage, double ms) {
                 {"e2", axis_json(f.e2)},
                 {"normal", axis_json(f.normal)},
                 {"angle", f.angle},
-                {"border", f.border}};
+                {"border", f.on_boundary}};
   if (f.first != kNoIndex) frame["first"] = f.first;
   return {{"model", brief_model_json(work.model)},
           {"from", point_json(work.point)},
@@ -89,7 +89,7 @@ TextTable work_table(const DirectionWork& work) {
                               vector_text(work.frame.e2) + "; normal " +
                               vector_text(work.frame.normal)});
   table.add_row({"angle", significant(work.frame.angle, 7) + " round the point" +
-                              (work.frame.border ? ", on the border" : "")});
+                              (work.frame.on_boundary ? ", on the boundary" : "")});
   return table;
 }
 
@@ -142,6 +142,8 @@ void add_log_map_options(CLI::App& command, LogMapArguments& arguments) {
   add_max_distance_option(command, arguments.max_distance);
   add_target_option(command, arguments.targets, "the places");
   add_setting_options(command, arguments.settings, {"method"});
+  command.get_option("--method")
+      ->description("what finds the paths: exact (default), wavefront, wavefront-fine");
   add_quiet_option(command, arguments.quiet);
   command.footer(
       "Paths are exact on the faces, and so are directions; behind a vertex that bends a path they "
@@ -163,7 +165,6 @@ Result<CommandOutput> run_log_map(const LogMapArguments& arguments, const Progre
   LogMapOptions options{MethodKind::kExact, *largest, {}};
   if (arguments.settings.has("method")) options.method = asked->options.method;
   Outputs outputs;
-  protect_inputs(arguments.model, {}, outputs);
   const auto expected = expect_columns(arguments.outputs, arguments.json, true, outputs);
   if (!expected) return expected.error();
   auto work = begin(arguments.model, asked->reading, *source, "log maps are", progress);
@@ -177,6 +178,7 @@ Result<CommandOutput> run_log_map(const LogMapArguments& arguments, const Progre
   if (!map) return about_model(work->model.name, map.error());
   const double map_ms = watch.milliseconds();
   work->warnings.insert(work->warnings.end(), map->warnings.begin(), map->warnings.end());
+  note_unused_picture(arguments.settings, arguments.outputs, work->warnings);
   const auto reached =
       std::ranges::count_if(map->distances, [](double d) { return std::isfinite(d); });
 
@@ -246,7 +248,7 @@ void add_trace_options(CLI::App& command, TraceArguments& arguments) {
   add_quiet_option(command, arguments.quiet);
   command.footer(
       "A line runs straight across edges and leaves the same angle on both sides of a vertex. It "
-      "ends at the border, and where three faces meet.\n"
+      "ends at the boundary, and where three faces meet.\n"
       "Examples:\n"
       "  geotherm trace bunny --from 17 --direction 0.5 --length 0.8 -o line.obj --json -\n"
       "  geotherm trace sleeve --from 0 --fan 24 --length 1 -o fan.svg");
@@ -271,8 +273,8 @@ Result<std::vector<double>> directions_of(const TraceArguments& arguments,
                    {"give 1 to " + std::to_string(kMost)}};
     }
     for (Index i = 0; i < *count; ++i) {
-      out.push_back(frame.border ? frame.angle * (i + 0.5) / *count
-                                 : 2 * std::numbers::pi * i / *count);
+      out.push_back(frame.on_boundary ? frame.angle * (i + 0.5) / *count
+                                      : 2 * std::numbers::pi * i / *count);
     }
   }
   if (out.empty()) out.push_back(0);
@@ -317,13 +319,17 @@ Result<CommandOutput> run_trace(const TraceArguments& arguments, const Progress&
   if (!source) return source.error();
   const auto length = number_of(arguments.length, "--length", "length");
   if (!length) return length.error();
+  if (*length < 0) {
+    return Error{ErrorCode::kBadInput,
+                 "--length: " + one_line(arguments.length) + " is below 0",
+                 {"give a length of 0 or more, in model units"}};
+  }
   Outputs outputs;
-  protect_inputs(arguments.model, {}, outputs);
   const auto expected = expect_line_files(arguments.files, outputs);
   if (!expected) return expected.error();
-  const auto work =
-      begin(arguments.model, asked->reading, *source, "straightest lines are", progress);
+  auto work = begin(arguments.model, asked->reading, *source, "straightest lines are", progress);
   if (!work) return work.error();
+  note_unused_picture(arguments.settings, arguments.files.outputs, work->warnings);
   const TriangleMesh& mesh = *work->model.mesh;
   const auto directions = directions_of(arguments, work->frame);
   if (!directions) return directions.error();
@@ -363,9 +369,9 @@ Result<CommandOutput> run_trace(const TraceArguments& arguments, const Progress&
       rows.add_row(
           {"line",
            "direction " + significant((*directions)[i]) + ": " + significant(line.path.length, 7) +
-               (whole                           ? ""
-                : line.end == TraceEnd::kBorder ? ", where the border is"
-                                                : ", where three faces or several fans meet")});
+               (whole                             ? ""
+                : line.end == TraceEnd::kBoundary ? ", where the boundary is"
+                                                  : ", where three faces or several fans meet")});
     }
     return rows.text();
   };

@@ -192,15 +192,20 @@ Result<CommandOutput> run_generate(const GenerateArguments& arguments, const Pro
                  "--tets is of volumes, and " + one_line(arguments.name) + " is none",
                  {"there are box-tets, ball-tets"}};
   }
+  if (!is_bundled(arguments.name)) {
+    std::vector<std::string> known = {"box-tets", "ball-tets"};
+    for (const BundledModel& model : bundled_models()) known.emplace_back(model.name);
+    return Error{ErrorCode::kNotAvailable,
+                 "there is no model '" + one_line(arguments.name) + "' to be generated",
+                 {known_words(arguments.name, known)}};
+  }
   const auto faces = faces_in(arguments);
   if (!faces) return faces.error();
   if (!arguments.frames.empty()) return generate_frames(arguments, *faces, progress);
   if (auto known = check_mesh_path(arguments.output); !known) return known.error();
   Outputs outputs;
-  if (is_bundled(arguments.name)) {  // otherwise its error is the one to report
-    if (auto expected = outputs.expect(arguments.output, "--output"); !expected) {
-      return expected.error();
-    }
+  if (auto expected = outputs.expect(arguments.output, "--output"); !expected) {
+    return expected.error();
   }
   const auto mesh = generate_model(arguments.name, *faces, progress);
   if (!mesh) return mesh.error();

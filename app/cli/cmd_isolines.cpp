@@ -200,7 +200,6 @@ Result<CommandOutput> run_isolines(const IsolinesArguments& arguments, const Pro
   const auto check = check_settings(arguments.check);
   if (!check) return check.error();
   Outputs outputs;
-  protect_inputs(arguments.model, arguments.sources, outputs);
   const auto expected = expect_line_files(arguments.files, outputs);
   if (!expected) return expected.error();
   const auto named = some_sources_of(arguments.sources);
@@ -213,9 +212,12 @@ Result<CommandOutput> run_isolines(const IsolinesArguments& arguments, const Pro
   auto figures = solver.solve(options, *sources, {{}, *check}, progress);
   if (!figures) return figures.error();
   note_unused_settings(arguments.settings, options, figures->warnings);
+  note_unused_picture(arguments.settings, arguments.files.outputs, figures->warnings);
   const auto levels = levels_up_to(figures->distance.max, *wanted);
   if (!levels) return levels.error();
-  const auto lines = trace_isolines(*figures->model.mesh, figures->result.distances, *levels);
+  const auto found = find_isolines(*figures->model.mesh, figures->result.distances, *levels);
+  if (!found) return found.error();
+  const std::vector<Isoline>& lines = *found;
 
   const Model& shown = figures->model;
   face_head_on(shown, arguments.settings, picture);

@@ -17,7 +17,7 @@ namespace {
 Json cracks_json(const CrackReport& cracks) {
   return {{"vertices", cracks.vertices},
           {"weld", cracks.vertices > 0 ? Json(cracks.distance) : Json(nullptr)},
-          {"border_edges", cracks.border_edges},
+          {"border_edges", cracks.boundary_edges},
           {"closed_edges", cracks.closed_edges}};
 }
 
@@ -33,7 +33,6 @@ void add_info_options(CLI::App& command, InfoArguments& arguments) {
 
 Result<CommandOutput> run_info(const InfoArguments& arguments, const Progress& progress) {
   Outputs outputs;
-  protect_inputs(arguments.model, {}, outputs);
   if (auto fits = expect_report(arguments.json, outputs); !fits) return fits.error();
   const auto asked = settings_in(arguments.settings);
   if (!asked) return asked.error();

@@ -20,8 +20,14 @@ namespace {
 
 bool is_npz(const std::string& path) { return io::file_extension(path) == ".npz"; }
 
-Result<void> expect_rows(const SolveArguments& arguments, Outputs& outputs) {
-  protect_inputs(arguments.model, arguments.sources, outputs);
+}  // namespace
+
+Result<void> check_each(const SolveArguments& arguments) {
+  if (auto fits = refuse_single_options(arguments, "--each"); !fits) return fits;
+  if (arguments.symmetric) {
+    return Error{ErrorCode::kBadInput, "--symmetric is about --pairs", {"leave it out"}};
+  }
+  if (const auto type = number_type(arguments); !type) return type.error();
   if (arguments.outputs.size() != 1) {
     return Error{ErrorCode::kBadInput,
                  "--each writes one array, and " +
@@ -41,8 +47,14 @@ Result<void> expect_rows(const SolveArguments& arguments, Outputs& outputs) {
                  one_line(path) + ": sparse rows are of all vertices, and --target asks for some",
                  {"write a .npy, or leave --target out"}};
   }
-  if (auto expected = outputs.expect(path, "--output"); !expected) return expected;
-  return expect_report(arguments.json, outputs);
+  return {};
+}
+
+namespace {
+
+Result<void> expect_rows(const SolveArguments& arguments, Outputs& outputs) {
+  const auto expected = outputs.expect(arguments.outputs.front(), "--output");
+  return expected ? expect_report(arguments.json, outputs) : expected;
 }
 
 Json each_json(const ManySources& work, const ManyFigures& figures, const RowSums& sums,
@@ -62,12 +74,8 @@ Json each_json(const ManySources& work, const ManyFigures& figures, const RowSum
 
 Result<CommandOutput> run_each(const SolveArguments& arguments, const Progress& progress,
                                const Announce& announce) {
-  if (auto fits = refuse_single_options(arguments, "--each"); !fits) return fits.error();
-  if (arguments.symmetric) {
-    return Error{ErrorCode::kBadInput, "--symmetric is about --pairs", {"leave it out"}};
-  }
+  if (auto fits = check_each(arguments); !fits) return fits.error();
   const auto type = number_type(arguments);
-  if (!type) return type.error();
   Outputs outputs;
   auto work = begin_many(arguments, expect_rows(arguments, outputs), progress);
   if (!work) return work.error();
@@ -122,8 +130,11 @@ constexpr std::size_t kMaxInTable = 10;
 
 bool is_npy(const std::string& path) { return io::file_extension(path) == ".npy"; }
 
-Result<void> expect_matrix(const SolveArguments& arguments, Outputs& outputs) {
-  protect_inputs(arguments.model, arguments.sources, outputs);
+}  // namespace
+
+Result<void> check_pairs(const SolveArguments& arguments) {
+  if (auto fits = refuse_single_options(arguments, "--pairs"); !fits) return fits;
+  if (const auto type = number_type(arguments); !type) return type.error();
   for (const std::string& path : arguments.outputs) {
     if (path != "-" && !is_npy(path) && io::file_extension(path) != ".csv") {
       return Error{ErrorCode::kNotAvailable,
@@ -132,13 +143,21 @@ Result<void> expect_matrix(const SolveArguments& arguments, Outputs& outputs) {
                        "--json FILE",
                    {"choose another name"}};
     }
-    if (auto expected = outputs.expect(path, "--output"); !expected) return expected;
   }
   const bool typed = arguments.float32 || !arguments.dtype.empty();
   if (typed && std::ranges::none_of(arguments.outputs, is_npy)) {
     return Error{ErrorCode::kBadInput,
                  "the type of numbers is that of a .npy file",
                  {"give -o FILE.npy, or leave --dtype and --float32 out"}};
+  }
+  return {};
+}
+
+namespace {
+
+Result<void> expect_matrix(const SolveArguments& arguments, Outputs& outputs) {
+  for (const std::string& path : arguments.outputs) {
+    if (auto expected = outputs.expect(path, "--output"); !expected) return expected;
   }
   return expect_report(arguments.json, outputs);
 }
@@ -267,9 +286,8 @@ void symmetrise(PairMatrix& pairs) {
 
 Result<CommandOutput> run_pairs(const SolveArguments& arguments, const Progress& progress,
                                 const Announce& announce) {
-  if (auto fits = refuse_single_options(arguments, "--pairs"); !fits) return fits.error();
+  if (auto fits = check_pairs(arguments); !fits) return fits.error();
   const auto type = number_type(arguments);
-  if (!type) return type.error();
   Outputs outputs;
   auto work = begin_many(arguments, expect_matrix(arguments, outputs), progress);
   if (!work) return work.error();

@@ -58,6 +58,11 @@ Result<std::vector<std::vector<Source>>> tree_of(const PathArguments& arguments)
   for (const std::string& text : arguments.to) {
     auto spec = parse_source(text);
     if (!spec) return about("--to", spec.error());
+    if (const double* const offset = offset_of(*spec); offset != nullptr && *offset != 0) {
+      return Error{ErrorCode::kBadInput,
+                   "--to: '" + one_line(text) + "' has an offset, and a path ends at points",
+                   {"leave out what follows @"}};
+    }
     routes.push_back(shared);
     routes.back().push_back({*std::move(spec), "--to " + one_line(text)});
   }
@@ -183,11 +188,6 @@ Result<void> check_way(const SurfacePoint& start, const ReadyMethod& ready, Mode
   figures.error = std::move(report);
   return {};
 }
-
-/// So many paths from one point are the sooner there by exact distances, which say of most of them
-/// at once that they are the shortest; on more faces those take minutes.
-constexpr std::size_t kMinTree = 4;
-constexpr Index kMaxExactFaces = 500000;
 
 /// Paths that begin in one point follow each other, so that its distances are computed once.
 Result<void> find_routes(const std::vector<Route>& routes, Check check, const Progress& progress,
@@ -317,6 +317,9 @@ void add_path_options(CLI::App& command, PathArguments& arguments) {
   add_no_check_option(command, arguments.check);
   add_quiet_option(command, arguments.quiet);
   add_setting_options(command, arguments.settings, names_of(SettingGroup::kMethod));
+  command.get_option("--method")
+      ->description("what finds the distances that lead the way (default: see below): " +
+                    joined(find_setting("method")->values()));
   command.footer(
       "The method finds the distances that lead the way: wavefront for a geodesic (exact for four "
       "and more from one point on up to 500,000 faces), heat for the other fields, unless --method "
@@ -335,7 +338,6 @@ Result<CommandOutput> run_path(const PathArguments& arguments, const Progress& p
   const auto check = check_settings(arguments.check);
   if (!check) return check.error();
   Outputs outputs;
-  protect_inputs(arguments.model, {}, outputs);
   const auto expected = expect_line_files(arguments.files, outputs);
   if (!expected) return expected.error();
   if (!arguments.lengths.empty()) {
@@ -357,6 +359,7 @@ Result<CommandOutput> run_path(const PathArguments& arguments, const Progress& p
     return found.error();
   }
   note_unused_settings(arguments.settings, figures.method, figures.warnings);
+  note_unused_picture(arguments.settings, arguments.files.outputs, figures.warnings);
 
   CommandOutput out{"", figures.warnings, {}};
   const auto written = write_line_files(arguments.files, picture_of_paths(figures), task->picture,

@@ -12,8 +12,9 @@
 #include "app/session/report.h"
 #include "app/text/text.h"
 #include "geotherm/io.h"
+#include "geotherm/many.h"
 #include "solver/distributed/mesh_block.h"
-#include "solver/method/mapped_method.h"
+#include "solver/heat/peak_memory.h"
 
 namespace geotherm::app {
 namespace {
@@ -34,7 +35,7 @@ constexpr Law kSetupSeconds = {0.359, 8.44};
 constexpr Law kQuerySeconds = {0.00658, 0.160};
 constexpr Law kRowSeconds = {0.00272, 0.0616};  ///< of a source in a block of sixteen
 /// Two chunks of sixteen answers, of a thread each.
-constexpr double kAnswersOfVertex = 2 * 2 * 16 * sizeof(double);
+constexpr double kAnswersOfVertex = 2 * 2 * kSetsInBlock * sizeof(double);
 
 /// One mesh over ranks (docs/large_scale.md): what a rank has before, and of each vertex it owns;
 /// torus of a million faces, half a million vertices a rank.
@@ -137,9 +138,9 @@ Result<CommandOutput> run_plan(const PlanArguments& arguments) {
   }
   Outputs outputs;
   if (auto fits = expect_report(arguments.json, outputs); !fits) return fits.error();
-  // Blocks of sixteen are dealt out whole.
-  const double blocks = std::ceil(*sources / 16), most = std::ceil(blocks / *ranks);
-  const double rows = std::min(16 * most, *sources);
+  // Blocks are dealt out whole.
+  const double blocks = std::ceil(*sources / kSetsInBlock), most = std::ceil(blocks / *ranks);
+  const double rows = std::min(kSetsInBlock * most, *sources);
   const double idle = shared ? 0.0 : std::max(0.0, *ranks - blocks);
   const SharedPlan share = plan_shared(*vertices, *ranks);
   const double setup = shared ? share.sharing + share.setup : kSetupSeconds.at(*vertices);

@@ -57,8 +57,6 @@ Result<void> check_output(const RenderArguments& arguments, const PictureSetting
 Result<void> expect_outputs(const RenderArguments& arguments, const PictureSettings& settings,
                             Outputs& outputs) {
   if (auto known = check_output(arguments, settings); !known) return known;
-  protect_inputs(arguments.model, arguments.sources, outputs);
-  for (const std::string& model : arguments.more_models) protect_inputs(model, {}, outputs);
   for (const std::string& path : picture_paths(arguments.output, settings)) {
     if (auto expected = outputs.expect(path, "--output"); !expected) return expected;
   }
@@ -274,7 +272,7 @@ Result<CommandOutput> run_render(const RenderArguments& typed, Drawing& drawing,
     out.warnings.push_back({"drawing in software, on " + figures.device.name});
   }
   if (format) {
-    note_what_has_no_place(arguments.settings, *format, settings->view, out.warnings);
+    note_what_has_no_place(arguments.settings, *format, settings->view, *data, out.warnings);
     auto written = write_scene(drawing, *format, *data, progress, outputs, figures);
     if (!written) return written.error();
   } else {

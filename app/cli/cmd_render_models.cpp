@@ -109,6 +109,7 @@ Result<CommandOutput> run_render_models(const RenderArguments& arguments, const 
     std::vector<Warning> warnings;
     auto data = prepare_picture(one, asked.state, places, asked.check,
                                 part_of(progress, 0.9 * share, 0.9 * next), figures, warnings);
+    if (!data && data.error().message.starts_with(one_line(model) + ": ")) return data.error();
     if (!data) return about(one_line(model), data.error());
     if (figures.solve) {
       note_unused_settings(arguments.settings, asked.state.options, figures.solve->warnings);

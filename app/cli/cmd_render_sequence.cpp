@@ -57,7 +57,11 @@ Result<void> refuse_other_pictures(const RenderArguments& arguments, const Asked
 Result<NumberedPath> numbered_output(const std::string& path) {
   if (is_film(path)) return NumberedPath::parse("%d.png");  // nobody asks for its names
   auto numbered = NumberedPath::parse(path);
-  if (!numbered) return about("--output", numbered.error());
+  if (!numbered) {
+    Error error = about("--output", numbered.error());
+    error.hint = {"give -o 'frame_%04d.png', whose %04d becomes the frame's number"};
+    return error;
+  }
   if (io::file_extension(path) == ".png") return numbered;
   return Error{
       ErrorCode::kBadInput,
@@ -200,8 +204,6 @@ class FramePainter {
 
 Result<void> expect_pictures(const RenderArguments& arguments, const Sequence& sequence,
                              const NumberedPath& paths, Outputs& outputs) {
-  protect_inputs(arguments.model, arguments.sources, outputs);
-  if (!is_numbered(sequence.path)) outputs.protect(sequence.path, "the sequence itself");
   if (is_film(arguments.output)) {
     if (auto expected = outputs.expect(arguments.output, "--output"); !expected) return expected;
   }

@@ -48,7 +48,6 @@ Result<Index> number_in_option(const std::string& text, const char* option, Inde
 bool is_json(const std::string& path) { return io::file_extension(path) == ".json"; }
 
 Result<void> expect_outputs(const SampleArguments& arguments, Outputs& outputs) {
-  protect_inputs(arguments.model, {}, outputs);
   for (const std::string& path : arguments.outputs) {
     if (!is_json(path)) {
       if (auto known = check_distance_path(path); !known) return known;
@@ -150,34 +149,58 @@ Result<void> check_samples(const SampleTask& task, ModelSolver& solver, const Re
   return {};
 }
 
-/// Moves the samples, by near-exact distances where those of the method know no nearest sample.
-Result<void> relax(const SampleTask& task, ModelSolver& solver, const Progress& progress,
-                   SampleFigures& figures) {
-  auto method = figures.method;
-  if (method->heat() != nullptr) {
-    auto ready = solver.prepare(better_options(figures.options, MethodKind::kWavefront),
-                                part_of(progress, 0, 0.1));
-    if (!ready) return ready.error();
-    method = ready->method;
-  }
+/// Moves the samples by a method and stores where they are then.
+Result<void> move_samples(const SampleTask& task, const ReadyMethod& by, const Progress& progress,
+                          SampleFigures& figures) {
   std::vector<SurfacePoint> points;
   for (const FarthestSample& sample : figures.points.samples) {
     points.push_back(SurfacePoint::at_vertex(sample.vertex));
   }
   const Stopwatch watch;
-  auto relaxed = relax_points(*method, figures.model.mesh, points, task.relax,
-                              part_of(progress, 0.1, 1), figures.options.threads);
+  auto relaxed = relax_points(*by.method, figures.model.mesh, points, task.relax,
+                              part_of(progress, 0, 0.8), figures.options.threads);
   if (!relaxed) return about_model(figures.model.name, relaxed.error());
   figures.relaxing_ms = watch.milliseconds();
+  const auto apart =
+      separation_of(relaxed->points, by.options, figures.model.mesh, part_of(progress, 0.8, 1));
+  if (!apart) return about_model(figures.model.name, apart.error());
   figures.relaxed = *std::move(relaxed);
+  figures.relaxed_by = by.options.method;
+  figures.relaxed_separation = *apart;
   return {};
+}
+
+/// Moves the samples, by near-exact distances where those of the method know no nearest sample, and
+/// checks the distances from where they are then, which are those that are written.
+Result<void> relax(const SampleTask& task, ModelSolver& solver, const ReadyMethod& ready,
+                   const Progress& progress, SampleFigures& figures) {
+  ReadyMethod by = ready;
+  if (by.method->heat() != nullptr) {
+    auto better = solver.prepare(better_options(figures.options, MethodKind::kWavefront),
+                                 part_of(progress, 0, 0.1));
+    if (!better) return better.error();
+    by = *std::move(better);
+  }
+  if (auto moved = move_samples(task, by, part_of(progress, 0.1, 0.7), figures); !moved) {
+    return moved;
+  }
+  if (task.check.against == Check::kOff) return {};
+  std::vector<SourceSet> sets(figures.relaxed->points.size());
+  for (std::size_t i = 0; i < sets.size(); ++i) sets[i].points = {figures.relaxed->points[i]};
+  auto checked = solver.check_method(by, sets, task.check, part_of(progress, 0.7, 0.9));
+  if (!checked) return checked.error();
+  figures.error = std::move(checked->error);
+  figures.warnings = std::move(checked->warnings);
+  if (!checked->replaced) return {};
+  figures.replaced = std::move(checked->replaced);
+  return move_samples(task, checked->by, part_of(progress, 0.9, 1), figures);
 }
 
 /// Samples a loaded model. All ranks; the first alone checks and relaxes.
 Result<SampleFigures> sample(Model model, const SettingArguments& arguments, const SampleTask& task,
                              const Ranks& ranks, const Progress& progress,
                              const Announce& announce) {
-  const double sampled = task.relax > 0 ? 0.4 : 0.9, checked = task.relax > 0 ? 0.5 : 1;
+  const bool relaxes = task.relax > 0;
   // What cannot be asked for is said before the set-up.
   if (auto fits = check_sampling(*model.mesh, task.count, {task.first}); !fits) {
     return about(one_line(model.name), fits.error());
@@ -188,9 +211,10 @@ Result<SampleFigures> sample(Model model, const SettingArguments& arguments, con
   const auto ready = ranks.agree_on(solver.prepare(options, part_of(progress, 0.0, kSetupShare)));
   if (!ready) return ready.error();
   const Stopwatch watch;
-  const bool checks = task.check.against != Check::kOff;
+  const bool checks = task.check.against != Check::kOff && !relaxes;  // else where they end
+  const double sampled = relaxes ? 0.5 : checks ? 0.9 : 1;
   auto points = take_samples(*ready->method, *model.mesh, task, &ranks,
-                             part_of(progress, kSetupShare, checks ? sampled : checked), announce);
+                             part_of(progress, kSetupShare, sampled), announce);
   if (!points) return about_model(model.name, points.error());
   const double sampling_ms = watch.milliseconds();
   const double peak = peak_rss_mb();  // of the work, not of its check
@@ -201,11 +225,11 @@ Result<SampleFigures> sample(Model model, const SettingArguments& arguments, con
   if (!ranks.is_first()) return figures;
   if (checks) {
     const auto done =
-        check_samples(task, solver, *ready, part_of(progress, sampled, checked), announce, figures);
+        check_samples(task, solver, *ready, part_of(progress, sampled, 1), announce, figures);
     if (!done) return done.error();
   }
-  if (task.relax > 0) {
-    auto done = relax(task, solver, part_of(progress, checked, 1), figures);
+  if (relaxes) {
+    const auto done = relax(task, solver, *ready, part_of(progress, sampled, 1), figures);
     if (!done) return done.error();
   }
   const auto add_warnings = [&figures](const std::vector<Warning>& more) {
@@ -214,8 +238,8 @@ Result<SampleFigures> sample(Model model, const SettingArguments& arguments, con
   add_warnings(figures.model.notes);
   add_warnings(figures.method->warnings());
   add_warnings(figures.points.first.warnings);
-  const auto unreached = std::ranges::count(figures.points.distances, kUnreached);
-  add_warnings(unreached_notes(mesh, static_cast<Index>(unreached)));
+  const auto unreached = std::ranges::count(figures.distances(), kUnreached);
+  add_warnings(unreached_notes(mesh, static_cast<Index>(unreached), figures.model.mesh.get()));
   note_unused_settings(arguments, task.options, figures.warnings);
   return figures;
 }

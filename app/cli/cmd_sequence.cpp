@@ -39,10 +39,6 @@ Result<void> refuse_other_answers(const SolveArguments& arguments) {
 bool is_collection(const std::string& path) { return io::file_extension(path) == ".pvd"; }
 
 Result<void> expect_output(const SolveArguments& arguments, Outputs& outputs) {
-  protect_inputs(arguments.model, arguments.sources, outputs);
-  if (!is_numbered(arguments.sequence.frames)) {
-    outputs.protect(arguments.sequence.frames, "the sequence itself");
-  }
   if (arguments.outputs.size() != 1) {
     return Error{ErrorCode::kBadInput,
                  "--sequence writes one output, and " +
@@ -154,6 +150,10 @@ class CollectionSink final : public FrameSink {
   std::string list_;
 };
 
+std::string collection_in_words(std::int64_t frames) {
+  return "a .vtp file for each of " + counted(frames, "frame", "frames");
+}
+
 struct OpenSink {
   std::unique_ptr<FrameSink> sink;
   std::string words;  ///< what is to be written
@@ -167,9 +167,7 @@ Result<OpenSink> open_sink(const std::string& path, const Sequence& sequence, Np
   if (is_collection(path)) {
     auto sink = CollectionSink::open(path, sequence.frames, outputs);
     if (!sink) return sink.error();
-    return OpenSink{*std::move(sink),
-                    "a .vtp file for each of " + counted(frames, "frame", "frames"),
-                    "a .vtp file for each"};
+    return OpenSink{*std::move(sink), collection_in_words(frames), "a .vtp file for each"};
   }
   const auto rows = static_cast<std::uint64_t>(frames);
   const auto columns = static_cast<std::uint64_t>(vertices);
@@ -252,7 +250,9 @@ Result<CommandOutput> run_sequence(const SolveArguments& arguments, const Progre
                              accuracy_line(*figures->answer->error));
   }
   return finish_command(std::move(out), outputs, arguments.json, report, [&] {
-    return sequence_table(*sequence, *figures, sums, path, open->words);
+    const std::int64_t solved = sequence->frames.count() - std::ssize(figures->bad);
+    return sequence_table(*sequence, *figures, sums, path,
+                          is_collection(path) ? collection_in_words(solved) : open->words);
   });
 }
 

@@ -45,7 +45,8 @@ struct TakenSetting {
   std::vector<std::string_view> values = {};
 };
 
-/// Of all others in the table they take the default alone.
+/// The settings that ranks take; of all others in the table of settings they take the default
+/// alone.
 const std::vector<TakenSetting>& taken_settings() {
   static const std::vector<TakenSetting> taken = {
       {"method", {"heat", "wavefront"}},
@@ -96,7 +97,7 @@ Result<void> refuse_what_one_does(const SolveArguments& a, const ViewerState& as
   if (auto taken = refuse_other_settings(asked); !taken) return taken;
   const std::pair<bool, const char*> kept[] = {
       {a.check.check, "--check"},
-      {a.check.on_poor == "better", "--on-poor better"},
+      {a.check.on_poor == geotherm::to_text(OnPoor::kBetter), "--on-poor better"},
       {!a.fields.empty(), "--fields"},
       {!a.bake.empty(), "--bake-colours"},
       {a.labels, "--labels"},
@@ -187,7 +188,6 @@ Result<SharedWork> begin_shared(const SolveArguments& arguments, bool first) {
   auto sources = vertices_in(arguments.sources, counts->vertices);
   if (!sources) return sources.error();
   work.sources = *std::move(sources);
-  protect_inputs(arguments.model, arguments.sources, work.outputs);
   if (!first) return work;
   for (const std::string& path : arguments.outputs) {
     if (auto expected = work.outputs.expect(path, "--output"); !expected) return expected.error();

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <sstream>
 
 #include "app/cli/commands.h"
@@ -19,6 +18,7 @@
 #include "geotherm/directions.h"
 #include "solver/core/stopwatch.h"
 #include "solver/core/text.h"
+#include "solver/mesh/io/input_file.h"
 
 namespace geotherm::app {
 namespace {
@@ -31,8 +31,9 @@ Error bad_line(const std::string& path, std::size_t line) {
 
 /// Lines as path and isolines write them into .csv.
 Result<std::vector<SurfacePath>> curves_in(const std::string& path, const TriangleMesh& mesh) {
-  std::ifstream file(path);
-  if (!file) return Error{ErrorCode::kBadFile, one_line(path) + ": cannot be read"};
+  const auto bytes = io::FileBytes::read(path);
+  if (!bytes) return about("--curves", bytes.error());
+  std::istringstream file{std::string(bytes->bytes())};
   constexpr std::size_t kColumns = 9;
   std::vector<SurfacePath> curves;
   std::string text, last;
@@ -78,7 +79,12 @@ Result<SurfacePath> curve_through(const std::vector<std::string>& texts, bool cl
   if (!ready) return ready.error();
   auto found = PathFinder(model.mesh, ready->method)
                    .find(points, {PathField::kGeodesic, closed, closed}, part_of(progress, 0.3, 1));
-  if (!found) return about("--through", found.error());
+  if (!found) return about_model(model.name, about("--through", found.error()));
+  if (found->path.points.size() < 2) {
+    return Error{ErrorCode::kBadInput,
+                 "--through: the points are in one place, which is no curve",
+                 {"give two that are apart"}};
+  }
   warnings.insert(warnings.end(), found->warnings.begin(), found->warnings.end());
   return std::move(found->path);
 }
@@ -171,8 +177,6 @@ Result<CommandOutput> run_signed(const SignedArguments& arguments, const Progres
         ErrorCode::kBadInput, "there is no curve", {"give --through points, or --curves FILE.csv"}};
   }
   Outputs outputs;
-  protect_inputs(arguments.model, {}, outputs);
-  outputs.protect(arguments.curves, "the curves");
   const auto expected = expect_columns(arguments.outputs, arguments.json, true, outputs);
   if (!expected) return expected.error();
   const auto model = load_model(arguments.model, asked->reading, progress);
@@ -189,6 +193,17 @@ Result<CommandOutput> run_signed(const SignedArguments& arguments, const Progres
   if (!found) return about_model(model->name, found.error());
   const double ms = watch.milliseconds();
   warnings.insert(warnings.end(), found->warnings.begin(), found->warnings.end());
+  note_unused_picture(arguments.settings, arguments.outputs, warnings);
+  if (found->rule == SideRule::kSides) {
+    std::vector<std::string> unused;
+    for (const char* const name : {"backend", "time-factor"}) {
+      if (arguments.settings.has(name)) unused.push_back(std::string("--") + name);
+    }
+    if (!unused.empty()) {
+      warnings.push_back({"the rule sides does not use " + joined(unused) + ": it has no heat",
+                          {"leave it out, or use ", SettingHint{"rule", {"heat"}}}});
+    }
+  }
   double least = 0, most = 0;
   Index reached = 0;
   for (const double d : found->distances) {

@@ -38,8 +38,7 @@ bool is_of_render(const std::string& path) {
          scene_format(path);
 }
 
-Result<void> expect_outputs(const SolveArguments& arguments, Outputs& outputs) {
-  protect_inputs(arguments.model, arguments.sources, outputs);
+Result<void> check_extensions(const SolveArguments& arguments) {
   for (const std::string& path : arguments.outputs) {
     if (is_of_render(path)) {
       return Error{
@@ -50,6 +49,12 @@ Result<void> expect_outputs(const SolveArguments& arguments, Outputs& outputs) {
     // What a space writes beside is known when the model is.
     const bool known_of_space = check_tet_distances_path(path) || check_grid_distances_path(path);
     if (auto known = check_distance_path(path); !known && !known_of_space) return known;
+  }
+  return {};
+}
+
+Result<void> expect_outputs(const SolveArguments& arguments, Outputs& outputs) {
+  for (const std::string& path : arguments.outputs) {
     if (auto expected = outputs.expect(path, "--output"); !expected) return expected;
   }
   return expect_report(arguments.json, outputs);
@@ -182,6 +187,14 @@ Result<void> refuse_options_of_many(const SolveArguments& arguments) {
                {typed ? "leave them out" : "leave it out"}};
 }
 
+Result<void> refuse_both(const SolveArguments& arguments) {
+  if (!arguments.each || !arguments.pairs) return {};
+  return Error{ErrorCode::kBadInput,
+               "--each and --pairs were both given: --each writes whole rows, --pairs those of the "
+               "sources' vertices",
+               {"leave one of them out"}};
+}
+
 /// A field of the error needs a thorough check; fields of the heat need the heat.
 Result<CheckSettings> settings_of(const SolveArguments& arguments, const MethodOptions& options,
                                   const WantedFields& wanted) {
@@ -229,15 +242,17 @@ std::string target_bytes(const std::string& path, const std::vector<Index>& targ
 
 }  // namespace
 
+Result<void> check_solve(const SolveArguments& arguments) {
+  if (auto fits = refuse_both(arguments); !fits) return fits;
+  if (arguments.each) return check_each(arguments);
+  if (arguments.pairs) return check_pairs(arguments);
+  if (auto fits = refuse_options_of_many(arguments); !fits) return fits;
+  return check_extensions(arguments);
+}
+
 Result<CommandOutput> run_solve(const SolveArguments& arguments, const Drawing& drawing,
                                 const Progress& progress, const Announce& announce) {
-  if (arguments.each && arguments.pairs) {
-    return Error{
-        ErrorCode::kBadInput,
-        "--each and --pairs were both given: --each writes whole rows, --pairs those of the "
-        "sources' vertices",
-        {"leave one of them out"}};
-  }
+  if (auto fits = refuse_both(arguments); !fits) return fits.error();
   if (auto fits = refuse_with_sequence(arguments.sequence, arguments.check); !fits) {
     return fits.error();
   }
@@ -250,7 +265,7 @@ Result<CommandOutput> run_solve(const SolveArguments& arguments, const Drawing& 
   if (!arguments.sequence.frames.empty()) return run_sequence(arguments, progress, announce);
   if (arguments.each) return run_each(arguments, progress, announce);
   if (arguments.pairs) return run_pairs(arguments, progress, announce);
-  if (auto fits = refuse_options_of_many(arguments); !fits) return fits.error();
+  if (auto fits = check_solve(arguments); !fits) return fits.error();
   const auto asked = settings_in(arguments.settings);
   if (!asked) return asked.error();
   const MethodOptions& options = asked->options;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <numbers>
 #include <set>
 #include <sstream>
@@ -14,6 +15,7 @@
 #include "app/session/model.h"
 #include "app/session/progress.h"
 #include "app/session/report.h"
+#include "app/session/sources.h"
 #include "app/session/wording.h"
 #include "app/text/text.h"
 #include "geotherm/directions.h"
@@ -28,11 +30,13 @@ namespace {
 struct AtVertex {
   Index vertex = kNoIndex;
   std::vector<double> numbers;
+  Source source;  ///< the vertex, for the words when there is none such
 };
 
 /// What is given, and where that is said.
 struct GivenText {
   std::string text, where;
+  ErrorCode blame = ErrorCode::kBadInput;
 };
 
 /// The lines of a file, whose numbers blanks or commas divide, as they would be typed.
@@ -48,9 +52,17 @@ Result<void> add_lines(const std::string& path, const std::string& option,
     std::istringstream words(line);
     std::string joined;
     for (std::string word; words >> word;) joined += (joined.empty() ? "" : ":") + word;
-    if (!joined.empty()) out.push_back({joined, option + " line " + std::to_string(number)});
+    if (!joined.empty())
+      out.push_back({joined, option + " line " + std::to_string(number), ErrorCode::kBadFile});
   }
   return {};
+}
+
+/// Its numbers as they may be typed.
+std::string numbers_text(const AtVertex& given) {
+  std::string text;
+  for (const double x : given.numbers) text += (text.empty() ? "" : ":") + number_text(x);
+  return text;
 }
 
 /// V:X or V:X:Y. `option`: of a single one; that of the file has an s behind it.
@@ -67,7 +79,7 @@ Result<std::vector<AtVertex>> given_in(const SpreadArguments& arguments, const s
                  {"give some with " + option + ", or " + option + "s FILE"}};
   }
   std::vector<AtVertex> out;
-  for (const auto& [text, where] : texts) {
+  for (const auto& [text, where, blame] : texts) {
     AtVertex& given = out.emplace_back();
     std::size_t from = 0, parts = 0;
     bool fine = true;
@@ -85,12 +97,23 @@ Result<std::vector<AtVertex>> given_in(const SpreadArguments& arguments, const s
         given.numbers.push_back(number.value_or(0));
       }
     }
+    const std::string named = where == option ? option + ' ' + one_line(text) : where;
+    given.source = {VertexList{{given.vertex}}, named, blame};
     if (fine && parts == numbers + 1) continue;
     return Error{ErrorCode::kBadInput,
                  where + ": '" + one_line(text) + "' is none",
                  {std::string("write ") +
                   (numbers == 2 ? "VERTEX:X:Y, along e1 and e2 of the vertex" : "VERTEX:VALUE") +
                   (where == option ? "" : ", or the numbers with blanks between")}};
+  }
+  std::map<Index, const AtVertex*> first;
+  for (const AtVertex& given : out) {
+    const auto [known, is_new] = first.try_emplace(given.vertex, &given);
+    if (is_new || known->second->numbers == given.numbers) continue;
+    return Error{ErrorCode::kBadInput,
+                 option + ": vertex " + std::to_string(given.vertex) + " was given " +
+                     numbers_text(*known->second) + " and " + numbers_text(given),
+                 {"give one for each vertex"}};
   }
   return out;
 }
@@ -105,10 +128,15 @@ struct SpreadWork {
 using Ask = std::function<Result<Spread>(const VectorHeat& heat, const Progress& progress)>;
 
 Result<SpreadWork> spread_over(const SpreadArguments& arguments, const ViewerState& asked,
-                               const char* what, const Ask& ask, const Progress& progress) {
+                               const std::vector<AtVertex>& given, const char* what, const Ask& ask,
+                               const Progress& progress) {
   auto model = load_model(arguments.model, asked.reading, progress);
   if (!model) return model.error();
   if (auto surface = refuse_space(*model, what); !surface) return surface.error();
+  for (const AtVertex& each : given) {
+    const auto placed = resolve_sources({&each.source, 1}, *model->mesh);
+    if (!placed) return placed.error();
+  }
   SpreadWork work{*std::move(model), {}, {}, 0, 0};
   const Stopwatch setup;
   const SpreadOptions options{asked.options.backend, asked.options.time_step.factor,
@@ -241,17 +269,16 @@ Result<CommandOutput> run_transport(const SpreadArguments& arguments, const Prog
   const auto given = given_in(arguments, "--vector", 2);
   if (!given) return given.error();
   Outputs outputs;
-  protect_inputs(arguments.model, {}, outputs);
-  outputs.protect(arguments.file, "the vectors");
   const auto expected = expect_columns(arguments.outputs, arguments.json, true, outputs);
   if (!expected) return expected.error();
   std::vector<TangentVector> vectors;
   for (const AtVertex& v : *given) vectors.push_back({v.vertex, v.numbers[0], v.numbers[1]});
-  const auto work = spread_over(
-      arguments, *asked, "vectors are",
+  auto work = spread_over(
+      arguments, *asked, *given, "vectors are",
       [&](const VectorHeat& heat, const Progress& part) { return heat.transport(vectors, part); },
       progress);
   if (!work) return work.error();
+  note_unused_picture(arguments.settings, arguments.outputs, work->spread.warnings);
 
   std::vector<VertexColumn> columns;
   for (const char* name : {"vx", "vy", "vz", "u", "v", "e1x", "e1y", "e1z", "e2x", "e2y", "e2z"}) {
@@ -308,8 +335,6 @@ Result<CommandOutput> run_extend(const SpreadArguments& arguments, const Progres
   const auto given = given_in(arguments, "--value", 1);
   if (!given) return given.error();
   Outputs outputs;
-  protect_inputs(arguments.model, {}, outputs);
-  outputs.protect(arguments.file, "the values");
   const auto expected = expect_columns(arguments.outputs, arguments.json, false, outputs);
   if (!expected) return expected.error();
   std::vector<Index> vertices;
@@ -319,7 +344,7 @@ Result<CommandOutput> run_extend(const SpreadArguments& arguments, const Progres
     values.push_back(each.numbers[0]);
   }
   const auto work = spread_over(
-      arguments, *asked, "values are carried",
+      arguments, *asked, *given, "carried values are",
       [&](const VectorHeat& heat, const Progress& part) {
         return heat.extend(vertices, values, part);
       },

@@ -158,7 +158,6 @@ Result<SourceSet> sources_on(const Model& model, const std::vector<Source>& name
 }
 
 Result<void> expect_outputs(const StudyArguments& arguments, Outputs& outputs) {
-  protect_inputs(arguments.model, arguments.sources, outputs);
   if (!arguments.svg.empty() && arguments.svg != "-" &&
       io::file_extension(arguments.svg) != ".svg") {
     return Error{ErrorCode::kBadInput,
@@ -190,7 +189,7 @@ void add_study_options(CLI::App& command, StudyArguments& arguments) {
                       names_of(SettingGroup::kMethod, {"method", "time-step", "time-factor",
                                                        "constraint", "boundary"}));  // swept
   command.footer(
-      "Sweeps m over both time rules, all constraint modes and, where there is a border, the "
+      "Sweeps m over both time rules, all constraint modes and, where there is a boundary, the "
       "boundary rules; each answer is held against exact distances, or wavefront-fine on large "
       "meshes, and in volumes, grids and on polygons against their near-exact method.\n"
       "Examples:\n"
@@ -228,7 +227,7 @@ Result<CommandOutput> run_study(const StudyArguments& arguments, const Progress&
     task.boundaries.insert(task.boundaries.end(),
                            {BoundaryRule::kDirichlet, BoundaryRule::kAverage});
   }
-  const auto study = sweep(*model, task, progress);
+  const auto study = study_of(*model, task, progress);
   if (!study) return study.error();
   if (!outputs.uses_stdout()) out.text = study_table(model->name, *study);
   const auto write = [&](const std::string& path, std::string text) -> Result<void> {

@@ -8,6 +8,7 @@
 #include "app/cli/render_work.h"
 #include "app/cli/viewer_window.h"
 #include "app/picture/figure.h"
+#include "app/picture/picture_text.h"
 #include "app/picture/png_file.h"
 #include "app/session/command.h"
 #include "app/session/compare.h"
@@ -122,9 +123,6 @@ Result<CommandOutput> run_headless(const ViewArguments& arguments,
                                    const Progress& progress) {
   Outputs outputs;
   if (!arguments.output.empty()) {
-    outputs.protect(is_bundled(arguments.model) ? "" : arguments.model, "the model itself");
-    outputs.protect(arguments.script, "the script");
-    outputs.protect(arguments.replay, "the log that is replayed");
     if (auto expected = outputs.expect(arguments.output, "--output"); !expected) {
       return expected.error();
     }
@@ -192,7 +190,9 @@ Result<CommandOutput> run_headless(const ViewArguments& arguments,
 }  // namespace
 
 void add_view_options(CLI::App& command, ViewArguments& arguments) {
-  add_model_option(command, arguments.model, arguments.settings);
+  add_model_option(command, arguments.model, arguments.settings)
+      ->description("a file or a pipe (" + model_extensions_text() +
+                    "), a bundled model (geotherm models), or a session (.geotherm)");
   command.add_option("--script", arguments.script, "commands to run (docs/commands.md)")
       ->type_name("FILE");
   command
@@ -339,8 +339,7 @@ Result<void> save_view_picture(const command::SavePicture& save, const Session& 
     settings.paper = std::nullopt;
     if (!settings.text_size) settings.text_size = painter.text_size;
   }
-  Outputs outputs;
-  if (!is_bundled(state.model)) outputs.protect(state.model, "the model itself");
+  Outputs outputs = outputs_beside(state);
   if (auto expected = outputs.expect(save.path, "save picture"); !expected) return expected;
 
   const std::optional<FigureFormat> format = figure_format(save.path);

@@ -110,6 +110,21 @@ std::string empty_value_problem(const CLI::App& command) {
   return {};
 }
 
+/// Every file that an option names: one that another option writes would be lost.
+void remember_named_files(const CLI::App& command) {
+  std::vector<InputFile> named;
+  for (const CLI::Option* option : command.get_options()) {
+    if (option->get_type_name() == "TEXT") continue;
+    const std::string name = option->get_name();
+    const std::string called =
+        option->get_positional() ? "the model itself" : "the file of " + name;
+    for (const std::string& value : option->results()) {
+      for (const FileId& id : files_named(value)) named.push_back({id, called, name});
+    }
+  }
+  remember_files(std::move(named));
+}
+
 /// Null when there is no such command.
 const CLI::App* find_command(const CLI::App& root, const std::string& name) {
   const auto found = root.get_subcommands(
@@ -132,14 +147,33 @@ std::string unknown_option(const CLI::App& command, const std::vector<std::strin
 }
 
 /// What CLI11 says, in the words of people where those are others.
-std::string in_words(const CLI::ParseError& error) {
+std::string in_words(const CLI::ParseError& error, const CLI::App& command) {
   std::string what = error.what();
   while (!what.empty() && (what.back() == '\n' || what.back() == '.')) what.pop_back();
   std::replace(what.begin(), what.end(), '\n', ' ');
-  constexpr std::string_view kExtra = "The following argument was not expected: ";
-  if (what.starts_with(kExtra)) return "there is no place for " + what.substr(kExtra.size());
-  const std::size_t many = what.find(": At Most 1 required but received");
-  return many == what.npos ? what : what.substr(0, many) + " was given more than once";
+  if (dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr) {
+    const std::vector<std::string> extra = command.remaining();
+    if (!extra.empty()) return "there is no place for " + joined(extra, " and ");
+  }
+  if (dynamic_cast<const CLI::ArgumentMismatch*>(&error) != nullptr) {
+    for (const CLI::Option* option : command.get_options()) {
+      const std::size_t most = std::max(1, option->get_items_expected_max());
+      const bool once = option->get_multi_option_policy() == CLI::MultiOptionPolicy::Throw;
+      if (once && option->count() > most) return option->get_name() + " was given more than once";
+    }
+  }
+  return what;
+}
+
+/// Another name of a file that was read as options, since it begins with a dash; empty: there is
+/// none.
+std::string named_file(const std::vector<std::string>& words) {
+  const auto is_file = [](const std::string& word) {
+    std::error_code failed;
+    return word.starts_with('-') && std::filesystem::exists(word, failed);
+  };
+  const auto found = std::ranges::find_if(words, is_file);
+  return found == words.end() ? std::string() : "./" + *found;
 }
 
 /// CLI11 describes what is wrong; what helps is the option that was meant, or the command's help.
@@ -147,8 +181,10 @@ int fail_to_parse(const CLI::ParseError& error, const CLI::App& command,
                   const std::vector<std::string>& words) {
   std::vector<std::string> known;
   const std::string unknown = unknown_option(command, words, known);
-  const std::string near = nearest_word(unknown, known);
-  const std::string what = unknown.empty() ? in_words(error) : "there is no option " + unknown;
+  const std::string file = named_file(words);
+  const std::string near = file.empty() ? nearest_word(unknown, known) : file;
+  const std::string what =
+      unknown.empty() ? in_words(error, command) : "there is no option " + unknown;
   const std::string name = command.get_parent() == nullptr ? "" : command.get_name() + " ";
   return fail(2, what + "; " + (near.empty() ? "" : "did you mean " + near + "? ") +
                      "see geotherm " + name + "--help");
@@ -326,6 +362,7 @@ int run_command_line(std::vector<std::string> arguments, Drawing& drawing, Viewe
     if (const std::string problem = empty_value_problem(*command); !problem.empty()) {
       return fail(2, problem);
     }
+    remember_named_files(*command);
   }
   for (const Subcommand& each : commands) {
     if (!root.got_subcommand(each.name)) continue;

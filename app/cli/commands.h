@@ -107,6 +107,9 @@ struct SolveArguments {
 void add_solve_options(CLI::App& command, SolveArguments& arguments);
 /// --each, --pairs and what goes with them.
 void add_many_options(CLI::App& command, SolveArguments& arguments);
+/// What of a solve can be refused before its model is read, by its options of many sources and the
+/// extensions of its outputs. Errors: kBadInput, kNotAvailable.
+Result<void> check_solve(const SolveArguments& arguments);
 /// `announce`: for what --each, --pairs and --sequence say before their work.
 Result<CommandOutput> run_solve(const SolveArguments& arguments, const Drawing& drawing,
                                 const Progress& progress = {}, const Announce& announce = {});

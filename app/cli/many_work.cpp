@@ -129,10 +129,14 @@ Result<Reach> reach_of(const SolveArguments& arguments, const Model& model) {
 
 Result<std::vector<Index>> targets_of(const std::vector<std::string>& texts, const Model& model) {
   if (texts.empty()) return std::vector<Index>();
-  const auto named = sources_of({texts, {}, false});
-  if (!named) return about("--target", named.error());
-  const auto each = resolve_each(*named, model);
-  if (!each) return about("--target", each.error());
+  std::vector<Source> named;
+  for (const std::string& text : texts) {
+    auto spec = parse_source(text);
+    if (!spec) return about("--target", spec.error());
+    named.push_back({*std::move(spec), "--target " + shortened(text)});
+  }
+  const auto each = resolve_each(named, model);
+  if (!each) return each.error();
   return vertices_of_each(*each, "--target: number");
 }
 
@@ -277,10 +281,10 @@ Result<ManyFigures> solve_share(const ManySources& work, const SolveArguments& a
     of_answers.resize(kMaxWarnings);
     of_answers.push_back({"and " + counted(more, "more such warning", "more such warnings") +
                           " about the first " +
-                          counted(static_cast<std::int64_t>(std::min(kSetsWithQuality, work.chunk)),
+                          counted(static_cast<std::int64_t>(std::min(kSetsInBlock, work.chunk)),
                                   "source", "sources")});
   }
-  if (work.model.space) name_rival(*work.model.space, of_answers);
+  if (work.model.space) name_reference_method(*work.model.space, of_answers);
   add_warnings(figures.warnings, of_answers);
   note_unused_settings(arguments.settings, work.options, figures.warnings);
   return figures;

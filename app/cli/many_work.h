@@ -64,7 +64,7 @@ struct ManyFigures {
   std::optional<SampleCheck> replaced;  ///< of the poor method that this one stands for
 };
 
-/// Of all rows of distances.
+/// Sums and extremes over all rows of distances.
 struct RowSums {
   double least = kUnreached, most = 0, mean = 0;  ///< of those that are finite
   double reached = 0;                             ///< how many are
@@ -98,6 +98,11 @@ Result<NpyType> number_type(const SolveArguments& arguments);
 
 /// Refuses options of a solve that have no meaning for many. Errors: kBadInput.
 Result<void> refuse_single_options(const SolveArguments& arguments, const std::string& option);
+
+/// What of --each and of --pairs can be refused before the model is read: other options and the
+/// extensions of outputs. Errors: kBadInput, kNotAvailable.
+Result<void> check_each(const SolveArguments& arguments);
+Result<void> check_pairs(const SolveArguments& arguments);
 
 /// Reads model and sources, and joins the other ranks. Errors: those of the options, of
 /// load_model(), resolve_each() and Ranks::join(), and `before`, what came of checks so far: the

@@ -118,6 +118,20 @@ Result<ViewerState> settings_in(const SettingArguments& arguments) {
   return state;
 }
 
+void note_unused_picture(const SettingArguments& arguments, const std::vector<std::string>& outputs,
+                         std::vector<Warning>& warnings) {
+  const auto is_svg = [](const std::string& path) { return io::file_extension(path) == ".svg"; };
+  if (std::ranges::any_of(outputs, is_svg)) return;
+  std::vector<std::string> unused;
+  for (const Setting& setting : settings()) {
+    if (setting.of_picture() && arguments.has(setting.name)) unused.push_back(spelling_of(setting));
+  }
+  if (unused.empty()) return;
+  warnings.push_back(
+      {joined(unused) + (unused.size() == 1 ? " is" : " are") + " not used: no output is a picture",
+       {"add -o FILE.svg"}});
+}
+
 void note_unused_settings(const SettingArguments& arguments, const MethodOptions& options,
                           std::vector<Warning>& warnings) {
   if (options.method != MethodKind::kHeat) {
@@ -160,13 +174,8 @@ void add_no_check_option(CLI::App& command, CheckArguments& arguments) {
 
 Result<CheckSettings> check_settings(const CheckArguments& arguments) {
   CheckSettings settings;
-  if (arguments.on_poor == "better") {
-    settings.on_poor = OnPoor::kBetter;
-  } else if (arguments.on_poor == "fail") {
-    settings.on_poor = OnPoor::kFail;
-  } else if (!arguments.on_poor.empty() && arguments.on_poor != "keep") {
-    return Error{ErrorCode::kBadInput,
-                 "--on-poor: '" + one_line(arguments.on_poor) + "' is none of keep, better, fail"};
+  if (auto known = store(parse<OnPoor>(arguments.on_poor), settings.on_poor); !known) {
+    return about("--on-poor", known.error());
   }
   if (arguments.no_check && arguments.check) {
     return Error{

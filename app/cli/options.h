@@ -43,6 +43,10 @@ ViewerState usual_settings();
 /// is expected.
 Result<ViewerState> settings_in(const SettingArguments& arguments);
 
+/// Says which of the typed settings of pictures have no effect, where no output is one.
+void note_unused_picture(const SettingArguments& arguments, const std::vector<std::string>& outputs,
+                         std::vector<Warning>& warnings);
+
 /// Says which of the typed settings of methods have no effect beside the others.
 void note_unused_settings(const SettingArguments& arguments, const MethodOptions& options,
                           std::vector<Warning>& warnings);
@@ -67,9 +71,6 @@ void add_max_distance_option(CLI::App& command, std::string& text);
 void add_target_option(CLI::App& command, std::vector<std::string>& texts, const std::string& what);
 Result<double> max_distance_in(const std::string& text);
 
-/// The files that these name, which no output may replace.
-void protect_inputs(const std::string& model, const SourceArguments& sources, Outputs& outputs);
-
 /// The sources of a command that cannot do without. Errors: those of sources_of(), kBadInput
 /// (none).
 Result<std::vector<Source>> some_sources_of(const SourceArguments& arguments);
@@ -90,7 +91,7 @@ CLI::Option* may_repeat(CLI::Option* option, const std::string& value_name);
 struct CheckArguments {
   bool check = false;
   bool no_check = false;
-  std::string on_poor;  ///< empty: keep
+  std::string on_poor = geotherm::to_text(OnPoor::kKeep);
 };
 
 /// --no-check and --on-poor.
@@ -133,13 +134,12 @@ void add_picture_options(CLI::App& command, SettingArguments& settings,
 void complete_bare_fit(std::vector<std::string>& words);
 
 /// `asked`: settings_in() of what was typed, `typed`; `colour_maps`: the names there are, the
-/// default first. Errors: kBadInput, with the option's
-/// name, the value and what is expected.
+/// default first. Errors: kBadInput, with the option's name, the value and what is expected.
 Result<PictureSettings> picture_settings(const ViewerState& asked, const SettingArguments& typed,
                                          const PictureArguments& arguments,
                                          std::span<const std::string> colour_maps);
 
-/// Those of the options that a picture of lines has, too, .svg.
+/// Adds the options of pictures that a picture of lines (.svg) has, too.
 void add_line_picture_options(CLI::App& command, SettingArguments& settings);
 
 }  // namespace geotherm::app

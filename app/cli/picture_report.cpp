@@ -10,6 +10,7 @@
 #include "app/picture/picture_scale.h"
 #include "app/picture/picture_settings.h"
 #include "app/picture/picture_text.h"
+#include "app/session/progress.h"
 #include "app/session/wording.h"
 #include "app/text/text.h"
 #include "geotherm/heat_method.h"
@@ -173,11 +174,9 @@ std::string picture_table(const PictureFigures& f) {
   TextTable table({{"", TextTable::Align::kLeft}, {"", TextTable::Align::kLeft}});
   const bool several = f.paths.size() > 1;
   const bool scene = f.scene_bytes > 0;
-  constexpr double kMillion = 1e6;
   if (scene) {
     table.add_row({"scene", one_line(f.paths.front()) + ": " +
-                                significant(static_cast<double>(f.scene_bytes) / kMillion) +
-                                " MB"});
+                                bytes_in_words(static_cast<double>(f.scene_bytes))});
   }
   if (!scene)
     table.add_row({several ? "pictures" : "picture",

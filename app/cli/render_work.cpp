@@ -6,8 +6,10 @@
 #include <cmath>
 #include <utility>
 
+#include "app/cli/scene_output.h"
 #include "app/picture/cut_picture.h"
 #include "app/picture/picture_scale.h"
+#include "app/picture/picture_text.h"
 #include "app/picture/target_paths.h"
 #include "app/session/explored.h"
 #include "app/session/model_solver.h"
@@ -29,6 +31,12 @@ Result<void> draw_field(const std::string& path, const Model& model,
                         PictureFigures& figures) {
   const auto field = read_vertex_field(path, model);
   if (!field) return about("--field", field.error());
+  if (std::ranges::none_of(field->values, [](double x) { return std::isfinite(x); })) {
+    return Error{ErrorCode::kBadInput,
+                 "--field: none of the " + counted(std::ssize(field->values), "value", "values") +
+                     " of " + io::printable(path) + " is a finite number",
+                 {"give one that has some"}};
+  }
   figures.field = path;
   if (auto shown = show_field(data, *model.mesh, *field); !shown || field->columns > 1) {
     return shown;
@@ -136,11 +144,16 @@ void note_figure(const RenderArguments& arguments, const PictureFigures& figures
     note({"bar-label", "units", "number-format"}, "the picture has no colour bar");
   }
   const bool mapped = figures.scale.coloured || face_field(figures.settings.view);
-  if (!mapped) {
+  if (figures.settings.view == View::kRegions) {
+    note({"bands", "colour-map", "reverse"}, "each region has a colour of its own");
+  } else if (!mapped) {
     note({"bands", "colour-map", "reverse"}, "the picture shows no values in colours");
   }
   if (!figures.scale.coloured) {
     note({"values", "colour-scale", "range", "spacing"}, "the picture shows no distances");
+  }
+  if (figures.settings.view == View::kExactError && arguments.check.no_check) {
+    warnings.push_back({"--no-check is not used: --view exact-error shows what the check finds"});
   }
   if (!figures.settings.slice) note({"slice-at"}, "nothing is sliced");
   if (arguments.targets.empty()) note({"path-kind"}, "no --path is drawn");
@@ -306,8 +319,10 @@ Result<PictureData> prepare_picture(const RenderArguments& arguments, const View
 
 void note_picture(const RenderArguments& arguments, const PictureFigures& figures,
                   const PictureData& data, const Drawing& drawing, std::vector<Warning>& warnings) {
-  note_scale(figures, warnings);
-  note_values(figures, data, warnings);
+  if (scene_format(arguments.output) != SceneFormat::kGlb) {  // which has no isolines
+    note_scale(figures, warnings);
+    note_values(figures, data, warnings);
+  }
   note_figure(arguments, figures, data, drawing, warnings);
   note_empty(data, figures.settings, warnings);
 }

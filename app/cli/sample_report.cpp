@@ -7,9 +7,12 @@
 #include "app/session/sources.h"
 #include "app/session/wording.h"
 #include "app/text/text.h"
+#include "geotherm/build_method.h"
 #include "geotherm/path.h"
 #include "solver/core/parallel.h"
 #include "solver/core/text.h"
+#include "solver/directions/pointed_mesh.h"
+#include "solver/mesh/connectivity.h"
 
 namespace geotherm::app {
 namespace {
@@ -23,6 +26,17 @@ std::vector<Index> cell_sizes(std::size_t samples, const std::vector<Index>& nea
     if (sample != kNoIndex) ++sizes[sample];
   }
   return sizes;
+}
+
+/// How far the farthest vertex of each cell is.
+std::vector<double> cell_radii(const RelaxedPoints& relaxed) {
+  std::vector<double> radii(relaxed.points.size(), 0.0);
+  for (std::size_t v = 0; v < relaxed.nearest.size(); ++v) {
+    if (relaxed.nearest[v] == kNoIndex) continue;
+    double& radius = radii[static_cast<std::size_t>(relaxed.nearest[v])];
+    radius = std::max(radius, relaxed.distances[v]);
+  }
+  return radii;
 }
 
 Json position_json(const Vec3& p) { return Json::array({p[0], p[1], p[2]}); }
@@ -50,10 +64,54 @@ Json relaxed_json(const SampleFigures& f) {
 
 }  // namespace
 
+Result<double> separation_of(const std::vector<SurfacePoint>& points, const MethodOptions& options,
+                             const std::shared_ptr<const TriangleMesh>& mesh,
+                             const Progress& progress) {
+  if (points.size() < 2) return kUnreached;
+  const auto pointed = pointed_mesh(mesh, points);
+  if (!pointed) return pointed.error();
+  const auto method = build_method(pointed->mesh, options, part_of(progress, 0, 0.2));
+  if (!method) return method.error();
+  double least = kUnreached;
+  for (std::size_t i = 0; i < points.size() && least > 0; ++i) {
+    const double share = 0.2 + 0.8 * static_cast<double>(i) / static_cast<double>(points.size());
+    const auto from = (*method)->solve(SourceSet::of_vertices({pointed->vertices[i]}),
+                                       {.quality = false, .reach = {.max_distance = least}},
+                                       part_of(progress, share, share));
+    if (!from) return from.error();
+    for (std::size_t k = 0; k < points.size(); ++k) {
+      if (k != i) least = std::min(least, from->distances[pointed->vertices[k]]);
+    }
+  }
+  return least;
+}
+
+double SampleFigures::radius() const {
+  if (!relaxed) return points.radius();
+  const std::vector<char> used = vertices_in_faces(model.mesh->vertex_count(), model.mesh->faces());
+  double farthest = 0;
+  for (std::size_t v = 0; v < used.size(); ++v) {
+    if (used[v] != 0) farthest = std::max(farthest, relaxed->distances[v]);
+  }
+  return farthest;
+}
+
 Json sample_json(const SampleFigures& f) {
-  const std::vector<Index> cells = cell_sizes(f.points.samples.size(), f.points.nearest);
+  const std::vector<Index> cells = cell_sizes(f.points.samples.size(), f.nearest());
+  const std::vector<double> radii = f.relaxed ? cell_radii(*f.relaxed) : std::vector<double>();
   Json samples = Json::array();
   for (std::size_t i = 0; i < f.points.samples.size(); ++i) {
+    if (f.relaxed) {
+      const SurfacePoint point = in_face(*f.model.mesh, f.relaxed->points[i]);
+      samples.push_back({{"vertex", nullptr},
+                         {"point", point_json(point)},
+                         {"position", position_json(position_at(*f.model.mesh, point))},
+                         {"distance", nullptr},
+                         {"distance_back", nullptr},
+                         {"radius", radii[i]},
+                         {"cell", cells[i]}});
+      continue;
+    }
     const FarthestSample& sample = f.points.samples[i];
     samples.push_back({{"vertex", sample.vertex},
                        {"position", position_json(f.model.mesh->positions()[sample.vertex])},
@@ -65,9 +123,9 @@ Json sample_json(const SampleFigures& f) {
   Json json = {{"model", model_json(f.model, f.mesh)},
                {"options", options_json(*f.method, f.options, f.points.first)},
                {"count", f.points.samples.size()},
-               {"radius", f.points.radius()},
-               {"separation", f.points.separation()},
-               {"unreached", std::ranges::count(f.points.distances, kUnreached)},
+               {"radius", f.radius()},
+               {"separation", f.separation()},
+               {"unreached", std::ranges::count(f.distances(), kUnreached)},
                {"samples", std::move(samples)},
                {"timing_ms",
                 {{"load", f.model.load_ms},
@@ -93,13 +151,13 @@ std::string sample_table(const SampleFigures& f) {
       counted(static_cast<std::int64_t>(points.samples.size()), "sample", "samples");
   figures.add_row(
       {"model", one_line(f.model.name) + ", " + counted(f.mesh.vertices, "vertex", "vertices")});
-  figures.add_row({"radius", std::isfinite(points.radius())
-                                 ? significant(points.radius()) +
+  figures.add_row({"radius", std::isfinite(f.radius())
+                                 ? significant(f.radius()) +
                                        ": every vertex of a face lies that near to one of " + count
                                  : "infinite: " + count + " for " +
                                        counted(f.mesh.components, "component", "components")});
-  if (std::isfinite(points.separation())) {
-    figures.add_row({"separation", significant(points.separation()) +
+  if (std::isfinite(f.separation())) {
+    figures.add_row({"separation", significant(f.separation()) +
                                        " between two samples at least, in either direction"});
   }
   figures.add_row({"method", to_text(f.method->kind()) +
@@ -115,18 +173,25 @@ std::string sample_table(const SampleFigures& f) {
     const RelaxedPoints& relaxed = *f.relaxed;
     figures.add_row({"relaxation", counted(std::ssize(relaxed.moves), "step", "steps") + " in " +
                                        milliseconds(f.relaxing_ms) + " ms" +
-                                       (relaxed.settled ? ", settled" : "")});
+                                       (relaxed.settled ? ", settled" : "") + ", by distances of " +
+                                       to_text(f.relaxed_by)});
     figures.add_row({"energy", significant(relaxed.energies.front()) + " to " +
                                    significant(relaxed.energies.back()) +
                                    ", the sum of area x distance^2"});
   }
   constexpr auto kRight = TextTable::Align::kRight;
-  TextTable list({{"sample", kRight}, {"vertex", kRight}, {"radius", kRight}, {"cell", kRight}});
-  const std::vector<Index> cells = cell_sizes(points.samples.size(), points.nearest);
+  TextTable list({{"sample", kRight},
+                  {f.relaxed ? "face" : "vertex", kRight},
+                  {"radius", kRight},
+                  {"cell", kRight}});
+  const std::vector<Index> cells = cell_sizes(points.samples.size(), f.nearest());
+  const std::vector<double> radii = f.relaxed ? cell_radii(*f.relaxed) : std::vector<double>();
   const std::size_t shown = std::min(points.samples.size(), kMaxShown);
   for (std::size_t i = 0; i < shown; ++i) {
-    list.add_row({std::to_string(i), std::to_string(points.samples[i].vertex),
-                  significant(points.samples[i].radius), grouped(cells[i])});
+    const Index place =
+        f.relaxed ? in_face(*f.model.mesh, f.relaxed->points[i]).face : points.samples[i].vertex;
+    list.add_row({std::to_string(i), std::to_string(place),
+                  significant(f.relaxed ? radii[i] : points.samples[i].radius), grouped(cells[i])});
   }
   std::string text = figures.text() + '\n' + list.text();
   if (shown < points.samples.size()) {

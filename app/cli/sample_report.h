@@ -25,9 +25,11 @@ struct SampleFigures {
   double sampling_ms = 0;
   double peak_rss_mb = 0;
   std::vector<Warning> warnings;
-  std::optional<SampleCheck> error = {};      ///< of some samples; none: not to be checked
-  std::optional<SampleCheck> replaced = {};   ///< of the poor method that this one stands for
-  std::optional<RelaxedPoints> relaxed = {};  ///< from the samples on
+  std::optional<SampleCheck> error = {};           ///< of some samples, in the end; none: unchecked
+  std::optional<SampleCheck> replaced = {};        ///< of the poor method that this one stands for
+  std::optional<RelaxedPoints> relaxed = {};       ///< from the samples on
+  MethodKind relaxed_by = MethodKind::kWavefront;  ///< whose distances led there
+  double relaxed_separation = kUnreached;          ///< smallest distance between two of them
   double relaxing_ms = 0;
   int ranks = 1;  ///< that took the samples together
 
@@ -36,7 +38,16 @@ struct SampleFigures {
     return relaxed ? relaxed->distances : points.distances;
   }
   const std::vector<Index>& nearest() const { return relaxed ? relaxed->nearest : points.nearest; }
+  double radius() const;
+  double separation() const { return relaxed ? relaxed_separation : points.separation(); }
 };
+
+/// The smallest distance between two points, each a source of its own, by a method with these
+/// options on a mesh of which they are vertices; infinite where no two reach each other. Every
+/// query goes as far as the smallest distance that is known. Errors: those of set-up and queries.
+Result<double> separation_of(const std::vector<SurfacePoint>& points, const MethodOptions& options,
+                             const std::shared_ptr<const TriangleMesh>& mesh,
+                             const Progress& progress);
 
 Json sample_json(const SampleFigures& figures);
 

@@ -34,7 +34,7 @@ std::optional<SceneFormat> scene_format(const std::string& path) {
 }
 
 void note_what_has_no_place(const SettingArguments& typed, SceneFormat format, View view,
-                            std::vector<Warning>& warnings) {
+                            const PictureData& data, std::vector<Warning>& warnings) {
   std::vector<std::string> unused;
   for (const Setting& setting : settings()) {
     if (!setting.of_picture() || !typed.has(setting.name) || has_use(setting, format)) continue;
@@ -44,6 +44,7 @@ void note_what_has_no_place(const SettingArguments& typed, SceneFormat format, V
   if (glb && view == View::kWireframe) unused.emplace_back("the edges of this view");
   if (glb && view == View::kSources) unused.emplace_back("the marks of this view");
   if (glb && shows_arrows(view)) unused.emplace_back("the arrows of this view");
+  if (glb && data.is_field && !data.heat_directions.empty()) unused.emplace_back("its arrows");
   if (unused.empty()) return;
   warnings.push_back({(glb ? "a .glb file holds the surface, its colours and values, and paths; it "
                              "has no place for "

@@ -19,7 +19,7 @@ std::optional<SceneFormat> scene_format(const std::string& path);
 /// What such a file has no place for, and was asked for, becomes a warning: settings, and what the
 /// view draws beside colours.
 void note_what_has_no_place(const SettingArguments& typed, SceneFormat format, View view,
-                            std::vector<Warning>& warnings);
+                            const PictureData& data, std::vector<Warning>& warnings);
 
 /// Writes the scene to figures.paths. Errors: those of Drawing::scene_file() and of the file.
 Result<void> write_scene(Drawing& drawing, SceneFormat format, const PictureData& data,

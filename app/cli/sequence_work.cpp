@@ -199,7 +199,7 @@ Result<void> refuse_with_sequence(const SequenceArguments& sequence, const Check
     if (!sequence.skip_bad) return {};
     return Error{ErrorCode::kBadInput, "--skip-bad is about --sequence", {"leave it out"}};
   }
-  if (sequence.skip_bad && check.on_poor == "fail") {
+  if (sequence.skip_bad && check.on_poor == geotherm::to_text(OnPoor::kFail)) {
     return Error{ErrorCode::kBadInput,
                  "--on-poor fail ends the run and --skip-bad goes on",
                  {"leave one of them out"}};

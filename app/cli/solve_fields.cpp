@@ -24,7 +24,7 @@ Result<std::vector<QualityField>> named_fields(const std::string& text, MethodKi
   while (from <= text.size()) {
     const std::size_t comma = std::min(text.find(',', from), text.size());
     const auto field =
-        parse_quality_field(one_line(std::string(trimmed(text.substr(from, comma - from)))));
+        parse<QualityField>(one_line(std::string(trimmed(text.substr(from, comma - from)))));
     if (!field) return about_option(field.error());
     if (needs_heat(*field) && method != MethodKind::kHeat) {
       return Error{ErrorCode::kBadInput,
@@ -61,7 +61,7 @@ Result<WantedFields> wanted_fields(const std::string& text, MethodKind method,
   }
   wanted.all = text == "all";
   if (wanted.all) {
-    wanted.fields = all_quality_fields();
+    wanted.fields = all_values<QualityField>();
     if (method != MethodKind::kHeat) std::erase_if(wanted.fields, needs_heat);
   } else {
     auto named = named_fields(text, method);

@@ -2,9 +2,8 @@
 // Options about where distance is 0, how far it goes, and points.
 #include <CLI/CLI.hpp>
 
-#include <cmath>
-
 #include "app/cli/options.h"
+#include "app/session/command_words.h"
 #include "app/session/model.h"
 #include "app/session/wording.h"
 #include "app/text/text.h"
@@ -39,11 +38,6 @@ void add_source_options(CLI::App& command, SourceArguments& arguments) {
       .add_flag("--curve", arguments.curve,
                 "the ids of the source file are a polyline; all of it is a source")
       ->group("Sources");
-}
-
-void protect_inputs(const std::string& model, const SourceArguments& sources, Outputs& outputs) {
-  if (!is_bundled(model) && model != kStandardInput) outputs.protect(model, "the model itself");
-  outputs.protect(sources.file, "the source file");
 }
 
 Result<std::vector<Source>> some_sources_of(const SourceArguments& arguments) {
@@ -112,11 +106,8 @@ void add_target_option(CLI::App& command, std::vector<std::string>& texts,
 
 Result<double> max_distance_in(const std::string& text) {
   if (text.empty()) return kUnreached;
-  const auto most = number_in<double>(text);
-  if (most && *most > 0 && std::isfinite(*most)) return *most;
-  return Error{ErrorCode::kBadInput,
-               "--max-distance: '" + one_line(text) + "' is no length above 0",
-               {"give one in model units"}};
+  const auto most = parse_max_distance(text);
+  return most ? most : about("--max-distance", most.error());
 }
 
 }  // namespace geotherm::app

@@ -5,12 +5,10 @@
 #include <cmath>
 #include <set>
 
-#include "app/session/model_solver.h"
 #include "app/session/progress.h"
 #include "app/session/wording.h"
 #include "app/text/text.h"
 #include "geotherm/accuracy.h"
-#include "geotherm/heat_method.h"
 #include "geotherm/options.h"
 
 namespace geotherm::app {
@@ -18,65 +16,27 @@ namespace {
 
 constexpr TimeRule kRules[] = {TimeRule::kMeanEdge, TimeRule::kMeanFaceArea};
 
-/// One method after the other: the solver makes each from the last one, so that factors are shared
-/// where only the constraint changes.
-class Sweeper {
- public:
-  Sweeper(const Model& model, const StudyTask& task, const std::vector<double>& better)
-      : solver_(unnamed(model)), sources_{task.sources, {}}, better_(better) {
-    for (const double e : better) {
-      if (std::isfinite(e)) range_ = std::max(range_, e);
+/// What is solved with, in the order of the rows.
+std::vector<MethodOptions> steps_of(const StudyTask& task) {
+  std::vector<MethodOptions> steps;
+  MethodOptions options = task.options;
+  for (const TimeRule rule : kRules) {
+    for (const double factor : task.factors) {
+      for (const BoundaryRule boundary : task.boundaries) {
+        for (const Constraint& constraint : study_constraints()) {
+          options.time_step = {rule, factor, 0};
+          options.boundary = boundary;
+          options.constraint = constraint;
+          steps.push_back(options);
+        }
+      }
     }
   }
+  return steps;
+}
 
-  double range() const { return range_; }
-
-  void add(const MethodOptions& options, Study& study) {
-    StudyRow row;
-    row.rule = options.time_step.rule;
-    row.factor = options.time_step.factor;
-    row.boundary = options.boundary;
-    row.constraint = options.constraint.mode;
-    const auto answer = solver_.solve(options, sources_, {{.quality = false}});
-    if (answer) {
-      measure(*answer, row);
-    } else {
-      row.message = told(answer.error());
-    }
-    study.rows.push_back(std::move(row));
-  }
-
- private:
-  void measure(const Answer& answer, StudyRow& row) const {
-    row.t = answer.method->heat()->t();
-    row.unit_t = answer.method->heat()->relative_t();
-    const DistanceError error = distance_error(answer.result.distances, better_);
-    if (error.worst == kNoIndex) return;
-    row.mean_error = error.mean_relative;
-    row.max_error = error.max_of_range;
-    if (range_ > 0) row.source_distance = answer.result.quality.max_source_distance / range_;
-  }
-
-  ModelSolver solver_;
-  ResolvedSources sources_;
-  const std::vector<double>& better_;
-  double range_ = 0;
-};
-
-/// The best distances that there are for the sources.
-Result<ReferenceAnswers> reference_on(const Model& model, const StudyTask& task,
-                                      const Progress& progress) {
-  const std::span<const SourceSet> sets(&task.sources, 1);
-  if (!model.space) {
-    return solve_reference(model.mesh, reference_for(MethodKind::kHeat, model.mesh->face_count()),
-                           sets, task.options.threads, nullptr, progress);
-  }
-  MethodOptions options;
-  options.method = model.space->rival();
-  options.threads = task.options.threads;
-  const auto rival = model.space->build_method(options, part_of(progress, 0.0, 0.3));
-  if (!rival) return rival.error();
-  return solve_reference(**rival, sets, part_of(progress, 0.3, 1.0));
+std::string message_of(const StudyRow& row) {
+  return row.failure ? told(*row.failure) : std::string();
 }
 
 }  // namespace
@@ -108,43 +68,33 @@ std::vector<double> study_factors(double least, double most, int count) {
   return factors;
 }
 
-Result<Study> sweep(const Model& model, const StudyTask& task, const Progress& progress) {
+Result<Study> study_of(const Model& model, const StudyTask& task, const Progress& progress) {
   if (!task.sources.offsets.empty()) {
     return Error{ErrorCode::kBadInput,
                  "the heat method takes no offsets of sources",
                  {"leave out what follows the @"}};
   }
-  Study study;
-  const auto reference =
-      reference_on(model, task, with_prefix(part_of(progress, 0.0, 0.1), "reference: "));
+  ModelSolver solver(unnamed(model));
+  const auto reference = solver.reference(solver.reference_of(MethodKind::kHeat, {Check::kAuto}),
+                                          {&task.sources, 1}, task.options.threads,
+                                          with_prefix(part_of(progress, 0.0, 0.1), "reference: "));
   if (!reference) return about_model(model.name, reference.error());
+  const std::vector<double>& better = reference->distances.front();
+  Study study;
   study.reference = reference->method;
-
   study.mean_edge = task.mean_edge;
-  Sweeper sweeper(model, task, reference->distances.front());
-  study.largest_distance = sweeper.range();
-  const std::vector<Constraint> constraints = study_constraints();
-  const std::size_t total =
-      std::size(kRules) * task.factors.size() * task.boundaries.size() * constraints.size();
-  MethodOptions options = task.options;
-  for (const TimeRule rule : kRules) {
-    for (const double factor : task.factors) {
-      for (const BoundaryRule boundary : task.boundaries) {
-        for (const Constraint& constraint : constraints) {
-          const double done = static_cast<double>(study.rows.size()) / static_cast<double>(total);
-          if (!report(progress, "sweep", 0.1 + 0.9 * done)) return cancelled_error();
-          options.time_step = {rule, factor, 0};
-          options.boundary = boundary;
-          options.constraint = constraint;
-          sweeper.add(options, study);
-        }
-      }
-    }
-  }
+  study.largest_distance = summarize(better).max;
+  const auto take = [&study](const StudyRow& row) {
+    study.rows.push_back(row);
+    return true;
+  };
+  const auto swept =
+      sweep(solver, task.sources, steps_of(task), better, take, part_of(progress, 0.1, 1.0));
+  if (!swept) return swept.error();
   const auto failed = [](const StudyRow& row) { return !row.mean_error; };
-  if (std::ranges::all_of(study.rows, failed) && !study.rows.front().message.empty()) {
+  if (std::ranges::all_of(study.rows, failed) && study.rows.front().failure) {
     return Error{ErrorCode::kNumericalFailure,
-                 "no answer could be had: " + study.rows.front().message};
+                 "no answer could be had: " + message_of(study.rows.front())};
   }
   const auto measured = std::ranges::find_if_not(study.rows, failed);
   if (model.space && measured != study.rows.end()) {  // the width of its cells
@@ -248,7 +198,7 @@ Json row_json(const StudyRow& row) {
           {"mean_relative", figure(row.mean_error)},
           {"max_of_range", figure(row.max_error)},
           {"source_distance_of_range", figure(row.source_distance)},
-          {"message", row.message}};
+          {"message", message_of(row)}};
 }
 
 }  // namespace
@@ -273,8 +223,8 @@ std::string study_table(const std::string& model, const Study& study) {
           " with " + words_of(*best) + ", t = " + significant(best->unit_t) + " h^2\n";
   std::set<std::string> messages;
   for (const StudyRow& row : study.rows) {
-    if (!row.message.empty() && messages.insert(row.message).second) {
-      text += words_of(row) + ": " + one_line(row.message) + '\n';
+    if (row.failure && messages.insert(message_of(row)).second) {
+      text += words_of(row) + ": " + one_line(message_of(row)) + '\n';
     }
   }
   return text;

@@ -1,31 +1,16 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <optional>
 #include <string>
 #include <vector>
 
 #include "app/session/model.h"
 #include "app/session/report.h"
+#include "app/session/sweep.h"
 #include "geotherm/build_method.h"
 #include "geotherm/progress.h"
 
 namespace geotherm::app {
-
-/// The heat method with one choice of time, boundary rule and constraint. What could not be had is
-/// empty.
-struct StudyRow {
-  TimeRule rule = TimeRule::kMeanEdge;
-  double factor = 1;  ///< m
-  double t = 0;       ///< model units squared
-  double unit_t = 0;  ///< t / h^2, h the mean edge length of the component that t is of
-  BoundaryRule boundary = BoundaryRule::kNeumann;
-  ConstraintMode constraint = ConstraintMode::kPinSources;
-  std::optional<double> mean_error;       ///< mean of |d - e| / e
-  std::optional<double> max_error;        ///< largest |d - e| as a share of the largest e
-  std::optional<double> source_distance;  ///< largest |d| on a source, as a share of the largest e
-  std::string message;                    ///< why something is missing
-};
 
 struct StudyTask {
   MethodOptions options;  ///< of the heat method, but for what is swept
@@ -51,10 +36,10 @@ std::vector<double> study_factors(double least, double most, int count);
 
 /// Sweeps the time factor over both rules, all constraint modes and the boundary rules, each held
 /// against the best method that fits the mesh (reference_for()), or is there in a space
-/// (Space::rival()). What fails is a row with its
-/// message. Cost: a heat factorisation for each rule, factor and boundary rule, and a query for
-/// each row. Errors: those of the reference; kCancelled.
-Result<Study> sweep(const Model& model, const StudyTask& task, const Progress& progress = {});
+/// (Space::reference_method()). What fails is a row with its failure. Cost: a heat factorisation
+/// for each rule, factor and boundary rule, and a query for each row. Errors: those of the
+/// reference; kCancelled.
+Result<Study> study_of(const Model& model, const StudyTask& task, const Progress& progress = {});
 
 /// The mean error over m for each rule and boundary rule with the default constraint, the other
 /// constraints at the best m, and what is best.

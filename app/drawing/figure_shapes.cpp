@@ -204,7 +204,9 @@ Result<FigureShapes> FigureShapes::build(const PictureData& data,
     values.push_back(known ? double{value} : std::numeric_limits<double>::infinity());
     if (known) largest = std::max(largest, double{value});
   }
-  for (const Isoline& line : trace_isolines(*mesh, values, isoline_levels(style, largest))) {
+  const auto lines = find_isolines(*mesh, values, isoline_levels(style, largest));
+  if (!lines) return lines.error();
+  for (const Isoline& line : *lines) {
     shapes.isolines_.push_back(refined_line(positions_of(*mesh, line.path)));
   }
   return shapes;

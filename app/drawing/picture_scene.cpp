@@ -109,7 +109,8 @@ std::vector<engine::Key> keys_of(const PictureData& data, const PictureSettings&
     }
     keys.push_back(std::move(key));
   }
-  if (maps_values(settings.view) && !data.values.empty() && data.unreached) {
+  const bool maps = maps_values(settings.view) && !data.values.empty();
+  if ((maps || shows_regions(data, settings)) && data.unreached) {
     keys.push_back({.label = data.is_signed || data.is_field ? "no value" : "not reached",
                     .patches = {kNoValue}});
   }
@@ -249,7 +250,7 @@ std::vector<float> scene_distances(const PictureData& data) {
 
 /// The colours of a view, and what they stand for where that is no value.
 Result<void> upload_colours(engine::Renderer& renderer, const PictureData& data,
-                            const PictureSettings& settings) {
+                            const PictureDataSettings& settings) {
   if (shows_regions(data, settings)) {
     if (auto done = renderer.set_regions(region_places(data), region_margins_of(data)); !done) {
       return done;
@@ -262,7 +263,7 @@ Result<void> upload_colours(engine::Renderer& renderer, const PictureData& data,
 }
 
 Result<void> upload_lines(engine::Renderer& renderer, const PictureData& data,
-                          const PictureSettings& settings) {
+                          const PictureDataSettings& settings) {
   std::vector<std::vector<glm::vec3>> points;
   points.reserve(data.lines.size());
   std::vector<engine::Polyline> lines;
@@ -280,7 +281,7 @@ std::vector<std::int32_t> region_places(const PictureData& data) {
   return engine::region_colour_places(joining_triangles(data), data.nearest);
 }
 
-engine::ColourTable colours_of(const engine::ColourMap& map, const PictureSettings& settings) {
+engine::ColourTable colours_of(const engine::ColourMap& map, const PictureDataSettings& settings) {
   engine::ColourTable table = engine::colour_table(map, settings.reverse);
   if (settings.bands == 0) return table;
   const engine::ColourTable all = table;
@@ -320,7 +321,7 @@ Result<void> upload_surface(engine::Renderer& renderer, const PictureData& data,
 }
 
 Result<void> upload_answer(engine::Renderer& renderer, const PictureData& data,
-                           const PictureSettings& settings) {
+                           const PictureDataSettings& settings) {
   if (!data.values.empty()) {
     if (auto done = renderer.set_values(data.values); !done) return done;
   }
@@ -338,7 +339,8 @@ Result<void> upload_answer(engine::Renderer& renderer, const PictureData& data,
 }
 
 Result<void> upload_picture(engine::Renderer& renderer, const PictureData& data,
-                            const PictureSettings& settings, std::span<const glm::vec3> positions) {
+                            const PictureDataSettings& settings,
+                            std::span<const glm::vec3> positions) {
   if (auto done = upload_surface(renderer, data, positions); !done) return done;
   return upload_answer(renderer, data, settings);
 }

@@ -43,7 +43,7 @@ std::vector<std::int32_t> region_places(const PictureData& data);
 std::vector<float> region_margins_of(const PictureData& data);
 
 /// The settings' map in as many colours as they ask for.
-engine::ColourTable colours_of(const engine::ColourMap& map, const PictureSettings& settings);
+engine::ColourTable colours_of(const engine::ColourMap& map, const PictureDataSettings& settings);
 
 std::vector<glm::vec3> scene_vectors(const std::vector<PictureData::Vector>& all);
 
@@ -57,10 +57,11 @@ Result<void> upload_surface(engine::Renderer& renderer, const PictureData& data,
 /// colours; what the data lack is taken away. Precondition: upload_surface(). Errors: the
 /// renderer's.
 Result<void> upload_answer(engine::Renderer& renderer, const PictureData& data,
-                           const PictureSettings& settings);
+                           const PictureDataSettings& settings);
 
 /// Both.
 Result<void> upload_picture(engine::Renderer& renderer, const PictureData& data,
-                            const PictureSettings& settings, std::span<const glm::vec3> positions);
+                            const PictureDataSettings& settings,
+                            std::span<const glm::vec3> positions);
 
 }  // namespace geotherm::app

@@ -45,7 +45,7 @@ struct PlaneInScene {
 /// The plane of the settings; none where the model has no extent along its normal.
 std::optional<PlaneInScene> plane_of(const std::vector<Vec3>& positions,
                                      const std::vector<Face>& faces,
-                                     const PictureSettings& settings) {
+                                     const PictureDataSettings& settings) {
   if (!settings.slice || faces.empty()) return std::nullopt;
   const auto& [x, y, z] = *settings.slice;
   const Vec3 normal = Vec3(x, y, z).stableNormalized();
@@ -103,7 +103,7 @@ void separate(Parts& parts, std::size_t first, std::size_t last, std::size_t ver
   }
 }
 
-Parts parts_of(const PictureData& whole, const PictureSettings& settings,
+Parts parts_of(const PictureData& whole, const PictureDataSettings& settings,
                const std::vector<Vec3>& positions, const std::vector<Face>& all,
                const std::optional<PlaneInScene>& cut) {
   Parts parts{{}, all, {}, whole.face_tets};
@@ -209,11 +209,11 @@ std::vector<Value> left_of(const std::vector<Value>& all, const std::vector<Inde
 
 }  // namespace
 
-bool is_cut(const PictureData& data, const PictureSettings& settings) {
+bool is_cut(const PictureData& data, const PictureDataSettings& settings) {
   return settings.slice || (settings.peel.side != PeelSide::kOff && !data.values.empty());
 }
 
-CutPicture cut_picture(const PictureData& whole, const PictureSettings& settings) {
+CutPicture cut_picture(const PictureData& whole, const PictureDataSettings& settings) {
   const std::vector<Vec3> positions = to_vectors(whole.positions);
   const std::vector<Face> faces = to_faces(whole.faces);
   const auto cut = plane_of(positions, faces, settings);

@@ -19,11 +19,11 @@ struct CutPicture {
 };
 
 /// Whether the settings leave less than the whole model. Without values nothing is peeled off.
-bool is_cut(const PictureData& data, const PictureSettings& settings);
+bool is_cut(const PictureData& data, const PictureDataSettings& settings);
 
-/// What PictureSettings::slice and peel leave of a model: of a volume a body with its inside, of
-/// a surface some of its faces. There may be nothing left. Cost: O(V + F + T); 2 ms for 100,000
+/// What PictureDataSettings::slice and peel leave of a model: of a volume a body with its inside,
+/// of a surface some of its faces. There may be nothing left. Cost: O(V + F + T); 2 ms for 100,000
 /// tets, where some are peeled off 9 ms.
-CutPicture cut_picture(const PictureData& whole, const PictureSettings& settings);
+CutPicture cut_picture(const PictureData& whole, const PictureDataSettings& settings);
 
 }  // namespace geotherm::app

@@ -44,7 +44,7 @@ class DepthMap {
 
   const Vector3f& along() const { return along_; }
 
-  /// In cells, and the depth.
+  /// Where a point lies on the map: two coordinates in cells, and its depth.
   Vector3f place(const Vector3f& p) const {
     constexpr float kMiddle = kCells / 2.0F;
     return {right_.dot(p) * (kMiddle - 1) + kMiddle, up_.dot(p) * (kMiddle - 1) + kMiddle,

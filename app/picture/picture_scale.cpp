@@ -140,10 +140,11 @@ std::optional<double> face_tick_step(View view) {
   return whole ? std::optional<double>(1) : std::nullopt;
 }
 
-std::string colour_map_of(const PictureData& data, const PictureSettings& settings) {
+std::string colour_map_of(const PictureData& data, const PictureDataSettings& settings) {
   // From near red to far blue is for distances: there is nothing wrong with a red face.
   if (face_field(settings.view)) {
-    return settings.colour_map == PictureSettings().colour_map ? "viridis" : settings.colour_map;
+    return settings.colour_map == PictureDataSettings().colour_map ? "viridis"
+                                                                   : settings.colour_map;
   }
   constexpr std::array kDiverging = {"cool-warm", "red-yellow-blue"};
   const bool fits = std::ranges::find(kDiverging, settings.colour_map) != kDiverging.end();
@@ -157,11 +158,11 @@ bool needs_sources(View view) {
 
 bool maps_values(View view) { return view == View::kContours || view == View::kExactError; }
 
-bool shows_regions(const PictureData& data, const PictureSettings& settings) {
+bool shows_regions(const PictureData& data, const PictureDataSettings& settings) {
   return settings.view == View::kRegions && !data.nearest.empty();
 }
 
-bool shows_line(const PictureSettings& settings, const std::string& name) {
+bool shows_line(const PictureDataSettings& settings, const std::string& name) {
   if (settings.path_kind == PathKind::kAll || !parse<PathKind>(name)) return true;
   return name == geotherm::to_text(settings.path_kind);
 }

@@ -75,7 +75,7 @@ struct PictureScale {
 inline constexpr double kSlackOfEnds = 1e-4;
 
 /// The settings' map, or a diverging one where values have both signs and it is none.
-std::string colour_map_of(const PictureData& data, const PictureSettings& settings);
+std::string colour_map_of(const PictureData& data, const PictureDataSettings& settings);
 
 /// Whether a view is about where distance is 0; the others show the mesh alone.
 bool needs_sources(View view);
@@ -84,10 +84,10 @@ bool needs_sources(View view);
 bool maps_values(View view);
 
 /// Whether a picture shows which source is the nearest: the view is to, and it is known.
-bool shows_regions(const PictureData& data, const PictureSettings& settings);
+bool shows_regions(const PictureData& data, const PictureDataSettings& settings);
 
 /// Whether a line is drawn: of the paths to points those of the kind that was asked for.
-bool shows_line(const PictureSettings& settings, const std::string& name);
+bool shows_line(const PictureDataSettings& settings, const std::string& name);
 
 /// What stands over the bar: the settings' words, or what the data call their values.
 std::string bar_title(const PictureData& data, const PictureSettings& settings);

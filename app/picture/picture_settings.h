@@ -177,35 +177,42 @@ struct CameraSettings {
   bool operator==(const CameraSettings&) const = default;
 };
 
-/// All that decides how a solved model is shown. Lengths in model units unless said otherwise.
-struct PictureSettings {
+/// Those settings that decide what a picture's data are. A window that has given them to the device
+/// does so again when one of these changes.
+struct PictureDataSettings {
   View view = View::kContours;
+  std::string colour_map = "red-blue";
+  bool reverse = false;
+  int bands = 0;  ///< colours of the map that are told apart; 0: all
+  /// The normal of a plane; what lies on its side of it is removed. Absent: nothing is.
+  std::optional<std::array<double, 3>> slice;
+  double slice_at = 0.5;  ///< where it is: 0 to 1 of the model's extent along the normal
+  Peel peel;
+  PathKind path_kind = PathKind::kGeodesic;
+
+  bool operator==(const PictureDataSettings&) const = default;
+};
+
+/// All that decides how a solved model is shown. Lengths in model units unless said otherwise.
+struct PictureSettings : PictureDataSettings {
   int width = 1280, height = 720;
   std::optional<int> dpi;  ///< pixels an inch on paper; absent: not said
   /// The size on paper that width and height come from (fit_to_paper()); absent: it is in pixels.
   std::optional<PictureSize> paper;
-  int samples = 4;  ///< 1 or 4 a pixel
-  std::string colour_map = "red-blue";
-  bool reverse = false;
+  int samples = 4;                             ///< 1 or 4 a pixel
   std::optional<double> range_min, range_max;  ///< distances at the map's ends
   std::optional<double> line_spacing;          ///< 0: no lines; absent: a round number that suits
   PictureLight light = PictureLight::kThreePoint;
   PictureShading shading = PictureShading::kForm;
   PictureBackground background = PictureBackground::kLight;
   bool bar = true, caption = true, markers = true;
-  /// The normal of a plane; what lies on its side of it is removed. Absent: nothing is.
-  std::optional<std::array<double, 3>> slice;
-  double slice_at = 0.5;  ///< where it is: 0 to 1 of the model's extent along the normal
-  Peel peel;
   // What figures of papers need.
   std::string title, bar_label, units;    ///< empty: none; what the values are; model units
   NumberFormat number_format;             ///< of the bar
   std::optional<PaperLength> text_size;   ///< of letters; absent: suits the picture
   std::optional<PaperLength> line_width;  ///< of isolines; edges and paths keep their proportions
   ColourScale colour_scale = ColourScale::kLinear;
-  int bands = 0;                    ///< colours of the map that are told apart; 0: all
   std::vector<double> line_values;  ///< ascending; isolines there instead of a spacing
-  PathKind path_kind = PathKind::kGeodesic;
   CameraSettings camera;
   int turntable = 0;   ///< frames of one turn; 0: one picture
   std::string device;  ///< part of its name; empty: the best

@@ -70,7 +70,9 @@ class Grid {
     if (!grid) return grid.error();
     std::vector<Tone> out;
     for (const double level : kLevels) out.push_back({std::max(level, 0.0), {}});
-    for (const Isoline& line : trace_isolines(*grid, values, kLevels)) {
+    const auto lines = find_isolines(*grid, values, kLevels);
+    if (!lines) return lines.error();
+    for (const Isoline& line : *lines) {
       const auto tone = std::ranges::find(kLevels, line.value) - kLevels.begin();
       Outline outline;
       for (const SurfacePoint& point : line.path.points) {

@@ -70,7 +70,18 @@ void describe_space(const Model& model, MeshReport& mesh) {
   }
 }
 
-std::vector<Warning> unreached_notes(const MeshSummary& mesh, Index unreached) {
+Hint weld_hint(const TriangleMesh& mesh, Index components) {
+  if (components < 2 || !mesh.same_as().empty()) return {};
+  const auto welded = weld(mesh, 0);
+  if (!welded || welded->merged == 0) return {};
+  const Index left = summarize_mesh(welded->mesh).components;
+  if (left >= components) return {};
+  return {SettingHint{"weld", {"0"}}, " joins vertices that lie on each other, which leaves " +
+                                          counted(left, "component", "components")};
+}
+
+std::vector<Warning> unreached_notes(const MeshSummary& mesh, Index unreached,
+                                     const TriangleMesh* whole) {
   std::vector<Warning> notes;
   const Index loose = mesh.unreferenced_vertices;
   if (loose > 0) {
@@ -80,15 +91,17 @@ std::vector<Warning> unreached_notes(const MeshSummary& mesh, Index unreached) {
   const Index lost = unreached - loose;
   if (lost > 0) {
     notes.push_back({counted(lost, "vertex lies", "vertices lie") +
-                     " in components without a source (there are " +
-                     counted(mesh.components, "component", "components") +
-                     "); their distance is infinite"});
+                         " in components without a source (there are " +
+                         counted(mesh.components, "component", "components") +
+                         "); their distance is infinite",
+                     whole != nullptr ? weld_hint(*whole, mesh.components) : Hint()});
   }
   return notes;
 }
 
 Error about_model(const std::string& name, const Error& error) {
-  const ErrorCode code = error.code == ErrorCode::kBadInput ? ErrorCode::kBadFile : error.code;
+  const bool of_mesh = error.code == ErrorCode::kBadInput && !is_about_setting(error);
+  const ErrorCode code = of_mesh ? ErrorCode::kBadFile : error.code;
   if (!name.empty()) return about(one_line(name), error, code);
   return {code, error.message, error.hint, error.subject};
 }

@@ -58,11 +58,17 @@ void describe_space(const Model& model, MeshSummary& mesh);
 /// And its box.
 void describe_space(const Model& model, MeshReport& mesh);
 
-/// One sentence for each reason why `unreached` vertices of a surface have no distance.
-std::vector<Warning> unreached_notes(const MeshSummary& mesh, Index unreached);
+/// Whether the setting `weld` joins some of a mesh's components, as words; else empty.
+/// `components`: how many there are. Cost: a weld and a pass over the faces.
+Hint weld_hint(const TriangleMesh& mesh, Index components);
 
-/// Turns kBadInput of the library, which found something wrong with the mesh, into kBadFile, with
-/// the model's name in front where it has one.
+/// One sentence for each reason why `unreached` vertices of a surface have no distance. `whole`:
+/// the mesh, for the hint that welding joins its components; null where that is not looked for.
+std::vector<Warning> unreached_notes(const MeshSummary& mesh, Index unreached,
+                                     const TriangleMesh* whole = nullptr);
+
+/// Turns kBadInput of the library, which found something wrong with the mesh, into kBadFile, unless
+/// it is about a setting; the model's name comes in front where it has one.
 Error about_model(const std::string& name, const Error& error);
 
 /// One source with the vertices that it is nearest to: a geodesic Voronoi cell.

@@ -41,6 +41,11 @@ enum class OnPoor {
   kBetter,  ///< the method wavefront answers instead, or the next one (better_methods())
   kFail,    ///< the command fails
 };
+inline NamedValues<OnPoor> named_values(OnPoor) {
+  using enum OnPoor;
+  return {"there is no '*' for poor distances",
+          {{kKeep, "keep"}, {kBetter, "better"}, {kFail, "fail"}}};
+}
 
 struct CheckSettings {
   Check against = Check::kOn;

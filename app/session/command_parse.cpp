@@ -129,7 +129,7 @@ template <class Kind>
 Result<Command> read_switch(WordReader& reader) {
   const auto on = reader.one_of({"on", "off"});
   if (!on) return on.error();
-  return Command(Kind{*on == 0});
+  return Command(Kind{*on == "on"});
 }
 
 template <class Kind, std::size_t... k>
@@ -168,9 +168,9 @@ Result<Command> read_place(WordReader& reader) {
 }
 
 Result<Command> read_show(WordReader& reader) {
-  const auto shown = reader.one_of({kShownNames[0], kShownNames[1], kShownNames[2]});
+  const auto shown = reader.one_of(all_names<Shown>());
   if (!shown) return shown.error();
-  return Command(command::Show{static_cast<Shown>(*shown)});
+  return Command(command::Show{*parse<Shown>(*shown)});
 }
 
 Result<Command> read_pick(WordReader& reader) {
@@ -188,17 +188,18 @@ Result<Command> read_target(WordReader& reader) {
 }
 
 Result<Command> read_source_centre(WordReader& reader) {
-  const auto kind = reader.one_of({"mean", "median", "none"});
+  std::vector<std::string> kinds = all_names<CentreKind>();
+  kinds.emplace_back("none");
+  const auto kind = reader.one_of(kinds);
   if (!kind) return kind.error();
-  if (*kind == 2) return Command(command::ShowCentre{});
-  return Command(command::ShowCentre{static_cast<CentreKind>(*kind)});
+  if (*kind == "none") return Command(command::ShowCentre{});
+  return Command(command::ShowCentre{*parse<CentreKind>(*kind)});
 }
 
 Result<Command> read_max_distance(WordReader& reader) {
   if (reader.peek() == "none") return Command(command::MaxDistance{});
-  const auto most =
-      reader.number(std::numeric_limits<double>::min(), std::numeric_limits<double>::max());
-  if (!most) return most.error();
+  const auto most = parse_max_distance(reader.next());
+  if (!most) return reader.blame_last(most.error());
   return Command(command::MaxDistance{*most});
 }
 
@@ -353,7 +354,7 @@ std::vector<std::string> completions(std::string_view line) {
       for (std::string& path : paths_that_begin(begun)) all.push_back(std::move(path));
     }
     if (before.starts_with("source set") || before.starts_with("source add")) {
-      all = {"random:", "boundary", "curve:", "face:", "xyz:"};
+      all = {"random:", "boundary", "curve:", "face:", "xyz:", "sample:"};
     }
   }
   std::erase_if(all, [&](const std::string& word) { return !word.starts_with(begun); });

@@ -2,10 +2,12 @@
 #include "app/session/command_words.h"
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <optional>
 #include <system_error>
 
+#include "app/picture/picture_text.h"
 #include "app/session/command.h"
 #include "app/session/sources.h"
 #include "app/session/wording.h"
@@ -130,6 +132,12 @@ std::vector<std::string> paths_that_begin(std::string_view begun) {
   return all;
 }
 
+Result<double> parse_max_distance(const std::string& text) {
+  const auto most = number_in<double>(text);
+  if (most && *most > 0 && std::isfinite(*most)) return *most;
+  return bad_value(text, "is no length above 0", "give one in model units");
+}
+
 Result<WordReader> WordReader::of(std::string_view line) {
   WordReader reader;
   std::size_t at = 0;
@@ -225,16 +233,9 @@ Result<SourceSpec> WordReader::single_point() {
   return spec;
 }
 
-Result<int> WordReader::one_of(std::initializer_list<const char*> names) {
-  int i = 0;
-  for (const char* name : names) {
-    if (peek() == name) {
-      ++next_;
-      return i;
-    }
-    ++i;
-  }
-  return fail(joined(std::vector<std::string>(names.begin(), names.end()), " or "));
+Result<std::string> WordReader::one_of(const std::vector<std::string>& names) {
+  if (std::ranges::find(names, peek()) == names.end()) return fail(joined(names, " or "));
+  return next();
 }
 
 namespace {
@@ -326,7 +327,7 @@ struct Printer {
   std::string operator()(const command::Forget&) const { return "forget"; }
   std::string operator()(const command::Swap&) const { return "swap"; }
   std::string operator()(const command::Show& c) const {
-    return std::string("show ") + kShownNames[static_cast<int>(c.shown)];
+    return "show " + geotherm::to_text(c.shown);
   }
   std::string operator()(const command::Flip&) const { return "flip"; }
   std::string operator()(const command::Pick& c) const {

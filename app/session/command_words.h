@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <initializer_list>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -15,8 +14,8 @@ namespace geotherm::app {
 /// Larger numbers mean nothing in a command.
 inline constexpr double kLargestNumber = 1e300;
 
-/// Values of Shown, in its order.
-inline constexpr const char* kShownNames[] = {"a", "b", "difference"};
+/// What ViewerState::max_distance may be. Errors: kBadInput.
+Result<double> parse_max_distance(const std::string& text);
 
 /// A word as it stands in a command: in quotes where it has to. $, `, !, control characters and
 /// bytes that are no UTF-8 are \xNN, so that neither shells nor terminals act on them.
@@ -45,7 +44,7 @@ class WordReader {
   Result<SourceSpec> source();
   Result<FacePoint> face_point();
   Result<SourceSpec> single_point();  ///< one vertex, a point in a face or in space
-  Result<int> one_of(std::initializer_list<const char*> names);
+  Result<std::string> one_of(const std::vector<std::string>& names);
 
   /// "column N: expected WHAT", of the next word or the end of the line.
   Error fail(const std::string& what) const;

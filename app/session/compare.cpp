@@ -30,9 +30,6 @@ constexpr int kBatches = 2;
 /// queries.
 constexpr std::size_t kCompared = 10;
 
-/// Answers of which the error is measured.
-constexpr std::size_t kErrorQueries = 3;
-
 using Answers = std::vector<std::vector<double>>;  // one a query, of the first ones
 
 std::string status_name(ErrorCode code) {
@@ -186,24 +183,6 @@ void measure_difference(const Answers& answers, const Answers& reference, Compar
   row.mean_difference = sum / count;
 }
 
-/// Better distances for the first queries; empty where they could not be had.
-Answers better_answers(const Model& model, const CompareTask& task, MethodKind kind,
-                       const Progress& progress) {
-  const std::span<const SourceSet> first(task.queries.data(),
-                                         std::min(task.queries.size(), kErrorQueries));
-  if (model.space) {
-    MethodOptions options;
-    options.method = kind;
-    const auto method = model.space->build_method(options, part_of(progress, 0.0, 0.2));
-    if (!method) return {};
-    auto better = solve_reference(**method, first, part_of(progress, 0.2, 1.0));
-    return better ? std::move(better->distances) : Answers();
-  }
-  const int threads = task.solvers.empty() ? 0 : task.solvers.front().threads;
-  auto better = solve_reference(model.mesh, kind, first, threads, nullptr, progress);
-  return better ? std::move(better->distances) : Answers();
-}
-
 void measure_error(const Answers& answers, const Answers& better, CompareRow& row) {
   const std::size_t count = std::min(answers.size(), better.size());
   const DistanceError error =
@@ -211,6 +190,7 @@ void measure_error(const Answers& answers, const Answers& better, CompareRow& ro
   if (error.worst == kNoIndex) return;
   row.mean_error = error.mean_relative;
   row.max_error = error.max_of_range;
+  row.error_queries = count;
 }
 
 CompareRow empty_row(const Model& model, const MethodOptions& solver) {
@@ -239,10 +219,12 @@ Result<std::vector<CompareRow>> compare_backends(const Model& model, const Compa
   std::stable_partition(order.begin(), order.end(), [&](std::size_t i) {
     return solver_name(task.solvers[i]) == task.reference;
   });
-  const MethodKind best = model.space ? model.space->rival()
-                                      : reference_for(MethodKind::kHeat, model.mesh->face_count());
-  const Answers better =
-      better_answers(model, task, best, with_prefix(progress, model.name + ", errors: "));
+  ModelSolver solver(model);
+  const MethodKind best = solver.reference_of(MethodKind::kHeat, {Check::kAuto});
+  const auto better = solver.reference(
+      best, std::span(task.queries).first(std::min(task.queries.size(), kErrorQueries)),
+      task.solvers.empty() ? 0 : task.solvers.front().threads,
+      with_prefix(progress, model.name + ", errors: "));
   Answers reference;
   for (const std::size_t i : order) {
     CompareRow& row = rows[i];
@@ -251,9 +233,9 @@ Result<std::vector<CompareRow>> compare_backends(const Model& model, const Compa
     Answers answers = Runner(task, named).run(model, task.solvers[i], row);
     if (row.status == "cancelled") return cancelled_error();
     if (row.status != "ok") continue;
-    const bool measured =
-        model.space ? row.method == MethodKind::kHeat : is_better(best, row.method);
-    if (measured) measure_error(answers, better, row);
+    if (better && solver.is_better(best, row.method)) {
+      measure_error(answers, better->distances, row);
+    }
     const bool is_reference = row.name() == task.reference;
     if (is_reference) reference = std::move(answers);
     if (reference.empty()) {

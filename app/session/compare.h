@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <span>
 #include <string>
@@ -12,6 +13,9 @@
 #include "geotherm/sources.h"
 
 namespace geotherm::app {
+
+/// Queries of which the error is measured, at most: better answers take seconds each.
+inline constexpr std::size_t kErrorQueries = 3;
 
 /// One solver on one model. What could not be measured is empty.
 struct CompareRow {
@@ -32,8 +36,9 @@ struct CompareRow {
   /// largest distance. Empty where there is none, or this is it.
   std::optional<double> mean_error, max_error;
   MethodKind error_reference = MethodKind::kExact;
-  std::string status;  ///< "ok", or the kind of failure
-  Warning note;        ///< why something is missing; may stand beside "ok"
+  std::size_t error_queries = 0;  ///< of the first so many queries; 0: no error was measured
+  std::string status;             ///< "ok", or the kind of failure
+  Warning note;                   ///< why something is missing; may stand beside "ok"
 
   /// The backend, or the name of another method.
   std::string name() const { return method == MethodKind::kHeat ? backend : to_text(method); }
@@ -48,10 +53,10 @@ struct CompareTask {
 
 /// Runs the task through each solver, one after the other. A failure is a row with its note.
 /// Differences are those of the distances from the reference's, divided by its largest one: the
-/// largest and the mean over the vertices of the first 10 queries. Errors are those of the first 3
-/// against the best method that fits the mesh (reference_for()). Iterative backends answer as
-/// many queries as they can in about five seconds (one at least), and skip the batch where it would
-/// take longer; `note` says so. The only error: kCancelled.
+/// largest and the mean over the vertices of the first 10 queries. Errors are those of the first
+/// kErrorQueries against the best method that fits the mesh (reference_for()). Iterative backends
+/// answer as many queries as they can in about five seconds (one at least), and skip the batch
+/// where it would take longer; `note` says so. The only error: kCancelled.
 Result<std::vector<CompareRow>> compare_backends(const Model& model, const CompareTask& task,
                                                  const Progress& progress = {});
 

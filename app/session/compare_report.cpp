@@ -33,7 +33,8 @@ Json row_json(const CompareRow& row) {
           {"error_reference", to_text(row.error_reference)},
           {"cells", row.cells ? Json(*row.cells) : Json(nullptr)},
           {"status", row.status},
-          {"message", told(row.note)}};
+          {"message", told(row.note)},
+          {"error_queries", row.error_queries}};
 }
 
 /// Names and messages come from elsewhere: what a spreadsheet would take for a formula begins with
@@ -54,6 +55,15 @@ Index count_of(const CompareRow& row) { return row.cells.value_or(row.faces); }
 const char* counted_in(std::span<const CompareRow> rows) {
   const auto of_space = [](const CompareRow& row) { return row.cells.has_value(); };
   return std::ranges::any_of(rows, of_space) ? "cells" : "faces";
+}
+
+/// Of which queries the errors are; empty where none was measured.
+std::string error_line(std::span<const CompareRow> rows) {
+  const auto row = std::ranges::max_element(rows, {}, &CompareRow::error_queries);
+  if (row == rows.end() || row->error_queries == 0) return {};
+  const auto count = static_cast<std::int64_t>(row->error_queries);
+  return "errors are of the first " + counted(count, "query", "queries") + ", against " +
+         to_text(row->error_reference);
 }
 
 std::string cell(const std::optional<double>& value) { return value ? milliseconds(*value) : "-"; }
@@ -93,6 +103,7 @@ std::string compare_table(const Machine& machine, std::span<const CompareRow> ro
     }
     before = &row;
   }
+  if (const std::string errors = error_line(rows); !errors.empty()) messages += errors + '\n';
   return machine.cpu + ", " + counted(machine.cores, "core", "cores") + ", BLAS " + machine.blas +
          "\n\n" + table.text() + (messages.empty() ? "" : "\n" + messages);
 }
@@ -192,16 +203,16 @@ std::string compare_html(const Machine& machine, std::span<const CompareRow> row
       "<h2>Time</h2>\n<p>Pre-factorisation (blue) and median solve (orange), on a logarithmic "
       "scale.</p>\n" +
       times_chart(rows);
-  out +=
-      "<h2>Figures</h2>\n<p>Differences are relative to the reference's largest distance; "
-      "errors are held against a more accurate method.</p>\n"
-      "<div class=scroll><table><thead><tr><th class=name>model</th><th>" +
-      std::string(counted_in(rows)) +
-      "</th>"
-      "<th class=name>solver</th><th>pre-factorisation ms</th><th>solve ms</th>"
-      "<th>batch ms/source</th><th>factor MB</th><th>peak MB</th><th>max difference</th>"
-      "<th>mean error</th><th>max error</th></tr>"
-      "</thead><tbody>\n";
+  out += "<h2>Figures</h2>\n<p>Differences are relative to the reference's largest distance" +
+         (error_line(rows).empty() ? std::string() : "; " + error_line(rows)) +
+         ".</p>\n"
+         "<div class=scroll><table><thead><tr><th class=name>model</th><th>" +
+         std::string(counted_in(rows)) +
+         "</th>"
+         "<th class=name>solver</th><th>pre-factorisation ms</th><th>solve ms</th>"
+         "<th>batch ms/source</th><th>factor MB</th><th>peak MB</th><th>max difference</th>"
+         "<th>mean error</th><th>max error</th></tr>"
+         "</thead><tbody>\n";
   for (const CompareRow& row : rows) out += table_row(row);
   return out + "</tbody></table></div>\n</body></html>\n";
 }

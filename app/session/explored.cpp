@@ -8,6 +8,7 @@
 #include "app/picture/picture_scale.h"
 #include "app/session/wording.h"
 #include "app/text/text.h"
+#include "solver/heat/heat_step.h"
 
 namespace geotherm::app {
 namespace {
@@ -31,25 +32,20 @@ double value_at(const TriangleMesh& mesh, std::span<const double> values,
 }  // namespace
 
 double diffusion_time(const TimeStep& step, const MeshReport& mesh) {
-  switch (step.rule) {
-    case TimeRule::kMeanEdge:
-      return step.factor * mesh.mean_edge_length * mesh.mean_edge_length;
-    case TimeRule::kMeanFaceArea:
-      return step.factor * mesh.area /
-             std::max<double>(1, mesh.faces - mesh.repeated_corner_faces - mesh.duplicate_faces);
-    case TimeRule::kAbsolute:
-      break;
-  }
-  return step.absolute;
+  const Index cells = mesh.faces - mesh.repeated_corner_faces - mesh.duplicate_faces;
+  const ComponentSize size{mesh.mean_edge_length, mesh.area, std::max<Index>(1, cells)};
+  return geotherm::diffusion_time(size, 1, step);
 }
 
 std::optional<double> time_in_volume(const TimeStep& step, const HeatMethod* heat) {
   if (step.rule == TimeRule::kAbsolute) return step.absolute;
   if (heat == nullptr || heat->t_range()[0] < heat->t_range()[1]) return std::nullopt;
   const TimeStep& known = heat->options().time_step;
-  if (step.rule == known.rule) return heat->t() / known.factor * step.factor;
-  if (step.rule != TimeRule::kMeanEdge) return std::nullopt;
-  return step.factor * heat->grading() * heat->t() / heat->relative_t();
+  if (step.rule != TimeRule::kMeanEdge && step.rule != known.rule) return std::nullopt;
+  ComponentSize size{.mean_edge = std::sqrt(heat->t() / heat->relative_t()), .cells = 1};
+  size.grading = heat->grading();
+  size.area = heat->t() / known.factor / size.grading;  // read where that rule gave the time
+  return geotherm::diffusion_time(size, 1, step);
 }
 
 const Answer* shown_answer(const Explored& explored, Shown shown) {

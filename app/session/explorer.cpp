@@ -165,12 +165,14 @@ Result<void> Explorer::move(const ExploreRequest& request, const Progress& progr
   if (pose_ == pose) return {};
   const bool carved = !pose.sculpture.strokes.empty();
   if (carved || !pose.sequence.empty()) {
+    if (pose.sequence.empty()) part_ = ExplorePart::kStrokes;
     auto surface = refuse_space(read_->model, carved ? "strokes are" : "frames are");
     if (!surface) return surface;
   }
   auto mesh = frame_mesh(pose);
   if (!mesh) return mesh.error();
   if (carved) {
+    part_ = ExplorePart::kStrokes;
     if (!sculptor_ || carved_ != *mesh) sculptor_.emplace(*mesh);
     carved_ = *mesh;
     if (auto done = sculptor_->follow(pose.sculpture); !done) return done;
@@ -278,6 +280,7 @@ Result<Explored> Explorer::work_out(const ExploreRequest& request, const Progres
   Explored explored;
   explored.model = model_;
   explored.sources = request.sources;
+  part_ = ExplorePart::kField;
   if (!request.field.empty()) {
     auto field = read_vertex_field(request.field, model_->model);
     if (!field) return field.error();
@@ -285,9 +288,11 @@ Result<Explored> Explorer::work_out(const ExploreRequest& request, const Progres
     return explored;
   }
   if (request.sources.empty()) return explored;
+  part_ = ExplorePart::kSources;
   auto warnings = place_sources(request, explored);
   if (!warnings) return warnings.error();
   const ResolvedSources sources{explored.set, *std::move(warnings)};
+  part_ = ExplorePart::kMethod;
   const MethodOptions options = live_options(request);
   std::vector<MethodOptions> wanted = {request.options, options};
   if (request.kept) wanted.push_back(*request.kept);
@@ -297,6 +302,7 @@ Result<Explored> Explorer::work_out(const ExploreRequest& request, const Progres
   if (request.quality) rest_ = {request.options, time_of((*a)->method->heat())};
   explored.a = *std::move(a);
   if (request.target) {
+    part_ = ExplorePart::kTarget;
     if (auto found = find_paths(request, explored, progress); !found) return found.error();
   }
   if (request.kept) {
@@ -315,7 +321,9 @@ Result<Explored> Explorer::work_out(const ExploreRequest& request, const Progres
 
 Result<Explored> Explorer::explore(const ExploreRequest& request, const Progress& progress,
                                    const Early& early) try {
+  part_ = ExplorePart::kModel;
   if (auto loaded = load(request, progress, early); !loaded) return loaded.error();
+  part_ = ExplorePart::kFrame;
   auto placed = move(request, progress);
   if (placed && request.quality) placed = inspect(progress);
   Result<Explored> explored = placed ? work_out(request, progress) : placed.error();

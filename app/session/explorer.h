@@ -57,6 +57,9 @@ struct ExploreRequest {
   }
 };
 
+/// What of a request is worked out at a time, in this order.
+enum class ExplorePart { kModel, kFrame, kStrokes, kField, kSources, kMethod, kTarget };
+
 /// Works requests out, one after the other, and keeps the model and its solver. For one thread at
 /// a time.
 class Explorer {
@@ -68,6 +71,9 @@ class Explorer {
   /// Errors: those of load_model, resolve_sources and ModelSolver; kCancelled.
   Result<Explored> explore(const ExploreRequest& request, const Progress& progress,
                            const Early& early);
+
+  /// The part that the last request came to: of one that failed, the part that did.
+  ExplorePart part() const { return part_; }
 
  private:
   Result<void> load(const ExploreRequest& request, const Progress& progress, const Early& early);
@@ -112,7 +118,8 @@ class Explorer {
   std::shared_ptr<const TriangleMesh> carved_;  ///< what `sculptor_` began with
   std::optional<Sculptor> sculptor_;            ///< from the first stroke on
   bool is_whole_ = true;                        ///< `read_` is described, lit and can be picked on
-  bool inspected_ = true;                       ///< `model_` is described as it is, or is `read_`
+  ExplorePart part_ = ExplorePart::kModel;
+  bool inspected_ = true;  ///< `model_` is described as it is, or is `read_`
   std::string model_text_;
   ModelReading reading_;
   std::uint64_t opening_ = 0;

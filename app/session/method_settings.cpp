@@ -139,12 +139,14 @@ std::vector<Setting> method_settings() {
   return {
       choice<&MethodOptions::method>(
           {.name = "method",
+           .usual = true,
            .value_name = "NAME",
            .help = "how distance is computed",
            .detail = "heat: the heat method; wavefront, wavefront-fine: near exact; fast-marching: "
                      "first order; exact: exact polyhedral distance, the slowest."}),
       {.name = "backend",
        .of_heat = true,
+       .usual = true,
        .value_name = "NAME",
        .help = "linear solver",
        .get = [](const State& s) { return s.options.backend; },
@@ -152,6 +154,7 @@ std::vector<Setting> method_settings() {
        .values = backend_names},
       {.name = "time-step",
        .of_heat = true,
+       .usual = true,
        .value_name = "RULE",
        .help = "how the diffusion time t is chosen",
        .forms = "mean-edge (t = m h^2, default), mean-face-area (t = m A/F), absolute:T",
@@ -166,6 +169,7 @@ std::vector<Setting> method_settings() {
       {.name = "time-factor",
        .kind = kNumber,
        .of_heat = true,
+       .usual = true,
        .option = "-m,--time-factor",
        .value_name = "M",
        .help = "m of the time step",
@@ -258,6 +262,7 @@ std::vector<Setting> method_settings() {
            .help = "threads that work at once; 0: one a core"}),
       number<&MethodOptions::refine, parse_refine>(
           {.name = "refine",
+           .usual = true,
            .value_name = "N",
            .help = "cuts each face of a mesh into four N times, up to 6, before anything is "
                    "solved: 4^N times the faces, memory and time; the output keeps the model's "

@@ -60,7 +60,7 @@ Result<Model> from_file(const std::string& text, const ModelReading& reading,
     if (error.code == ErrorCode::kCancelled) return error;
     const bool memory = error.code == ErrorCode::kOutOfMemory;
     const bool there = std::filesystem::exists(path, unknown);
-    if (!memory) error.code = ErrorCode::kBadFile;
+    if (!memory && !is_about_setting(error)) error.code = ErrorCode::kBadFile;
     return with_hint(std::move(error), {memory  ? "take a mesh with fewer faces"
                                         : there ? "choose another file, or export this one again"
                                                 : "check the path"});
@@ -79,7 +79,12 @@ Result<Model> bundled(const std::string& name, const ModelReading& reading,
   const auto file = bundled_file(name);
   if (!file) return file.error();
   auto model = from_file(*file, reading, progress);
-  if (model) model->path.clear();
+  if (!model) return model;
+  model->path.clear();
+  if (std::error_code unknown; std::filesystem::is_regular_file(name, unknown)) {
+    model->notes.push_back({"the bundled model " + name + " was taken, not the file of this name",
+                            {"write ./" + name + " for the file"}});
+  }
   return model;
 }
 
@@ -145,7 +150,7 @@ Result<Model> load_model(const std::string& text, const ModelReading& reading,
 namespace {
 
 constexpr BundledModel kModels[] = {
-    {"terrain", 33'000, "mountains cut by rivers, a height field with an open border",
+    {"terrain", 33'000, "mountains cut by rivers, a height field with an open boundary",
      "a landscape with one boundary"},
     {"sleeve", 37'000, "a bent garment sleeve with folds, open at the shoulder and the cuff",
      "a tube with two boundaries"},

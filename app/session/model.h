@@ -45,7 +45,7 @@ struct ModelReading {
   std::string format;          ///< one of model_formats(); empty: what name or bytes say
   std::optional<double> weld;  ///< vertices this near are one, model units; none: as in the file
   GridValues grid = GridValues::kAuto;
-  std::string mask;  ///< what leaves vertices or faces out (mask.h); empty: nothing
+  std::string mask;  ///< what leaves vertices or faces out, as read_mask() takes it; empty: nothing
 
   bool operator==(const ModelReading&) const = default;
 };

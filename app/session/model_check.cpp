@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <iterator>
 #include <new>
+#include <optional>
+#include <utility>
 
 #include "app/session/model_solver.h"
 #include "app/session/progress.h"
@@ -26,32 +28,56 @@ std::vector<std::size_t> spread(std::size_t count) {
   return numbers;
 }
 
-bool is_poor(const Answer& answer) { return answer.error->is_poor(); }
-bool is_poor(const CheckedMethod& checked) { return checked.error.report.is_poor(); }
+// What was checked, an answer or a method for many, is treated alike.
+const AccuracyReport& report_on(const Answer& answer) { return *answer.error; }
+const AccuracyReport& report_on(const CheckedMethod& checked) { return checked.error.report; }
+Warning line_on(const Answer& answer) { return accuracy_line(*answer.error); }
+Warning line_on(const CheckedMethod& checked) { return accuracy_line(checked.error); }
+const MethodOptions& asked_of(const Answer& answer) { return answer.options; }
+const MethodOptions& asked_of(const CheckedMethod& checked) { return checked.by.options; }
 
-/// Tries better methods in order; returns the first answer that is not poor, else the last; none
-/// where `kinds` is empty. `ask`: takes MethodOptions and a progress. Errors: those of the first
-/// one, kCancelled.
-template <class Asked, class Ask>
-Result<std::optional<Asked>> ask_better(const MethodOptions& poor,
-                                        const std::vector<MethodKind>& kinds,
-                                        const Progress& progress, Ask&& ask) {
+/// Warns of what is poor or could not be checked. Errors: kNumericalFailure (OnPoor::kFail).
+template <class Checked>
+Result<void> warn_or_fail(Checked& checked, OnPoor on_poor) {
+  const AccuracyReport& report = report_on(checked);
+  const Warning line = line_on(checked);
+  if (on_poor == OnPoor::kFail) {
+    if (auto right = refuse_poor(report, line); !right) return right;
+  }
+  if (auto warning = accuracy_warning(report, line)) {
+    checked.warnings.push_back(*std::move(warning));
+  }
+  return {};
+}
+
+/// Tries better methods in order and puts the first that is not poor, else the last, in place of
+/// what is poor, which stays with a warning where `kinds` is empty. `ask`: takes MethodOptions and
+/// a progress. Errors: those of the first one, kCancelled.
+template <class Checked, class Ask>
+Result<void> replace_poor(Checked& poor, const std::vector<MethodKind>& kinds,
+                          const Progress& progress, Ask&& ask) {
   const double share = 1.0 / static_cast<double>(std::max<std::size_t>(1, kinds.size()));
-  std::optional<Asked> best;
+  std::optional<Checked> best;
   double done = 0;
   for (const MethodKind kind : kinds) {
-    auto next = ask(better_options(poor, kind), part_of(progress, done, done + share));
+    auto next = ask(better_options(asked_of(poor), kind), part_of(progress, done, done + share));
     if (!next && (!best || next.error().code == ErrorCode::kCancelled)) return next.error();
     if (!next) break;  // what was poor, too, is better than nothing
     best = *std::move(next);
-    if (!is_poor(*best)) break;
+    if (!report_on(*best).is_poor()) break;
     done += share;
   }
-  return best;
+  if (!best) return warn_or_fail(poor, OnPoor::kBetter);
+  std::ranges::copy(replaced_warnings(asked_of(poor).method, line_on(poor), asked_of(*best).method,
+                                      report_on(*best), line_on(*best)),
+                    std::back_inserter(best->warnings));
+  best->replaced = std::move(poor.error);
+  poor = *std::move(best);
+  return {};
 }
 
-/// Looks for a remedy in a space: settings of heat where it is small enough, else its rival, which
-/// the answers were held against. Errors: kCancelled.
+/// Looks for a remedy in a space: settings of heat where it is small enough, else its reference
+/// method, which the answers were held against. Errors: kCancelled.
 Result<void> find_in_space(const Space& space, const CheckedAnswers& answers,
                            const ReferenceAnswers& better, bool further, AccuracyReport& report,
                            const Progress& progress) {
@@ -75,7 +101,7 @@ Result<void> find_in_space(const Space& space, const CheckedAnswers& answers,
 }  // namespace
 
 MethodKind ModelSolver::reference_of(MethodKind checked, const CheckSettings& settings) const {
-  if (model_.space) return model_.space->rival();
+  if (model_.space) return model_.space->reference_method();
   return reference_in(settings, checked, model_.mesh->face_count());
 }
 
@@ -85,13 +111,31 @@ MethodKind ModelSolver::reference_of_better(MethodKind kind, Check check) const 
 
 bool ModelSolver::is_better(MethodKind a, MethodKind b) const {
   if (!model_.space) return geotherm::is_better(a, b);
-  return a == model_.space->rival() && b == MethodKind::kHeat;
+  return a == model_.space->reference_method() && b == MethodKind::kHeat;
 }
 
 std::vector<MethodKind> ModelSolver::better_methods(MethodKind poor, Check check) const {
   if (!model_.space) return app::better_methods(poor, check, model_.mesh->face_count());
   if (poor != MethodKind::kHeat) return {};
-  return {model_.space->rival()};
+  return {model_.space->reference_method()};
+}
+
+Result<ReferenceAnswers> ModelSolver::reference(
+    MethodKind kind, std::span<const SourceSet> sets, int threads, const Progress& progress,
+    std::shared_ptr<const IntrinsicSurface> triangulation) {
+  if (use_ == Use::kOneAnswer && !model_.space) {
+    return geotherm::solve_reference(model_.mesh, kind, sets, threads, std::move(triangulation),
+                                     progress);
+  }
+  const Stopwatch watch;
+  MethodOptions options;
+  options.method = kind;
+  options.threads = threads;
+  const auto made = make(options, nullptr, part_of(progress, 0.0, 0.3));
+  if (!made) return made.error();
+  auto solved = geotherm::solve_reference(**made, sets, part_of(progress, 0.3, 1.0));
+  if (solved) solved->milliseconds = watch.milliseconds();
+  return solved;
 }
 
 /// Computes reference distances into `reference_`.
@@ -103,26 +147,11 @@ Result<void> ModelSolver::solve_reference(MethodKind kind, const CheckedAnswers&
     return {};
   }
   reference_.reset();
-  if (beside_ && beside_->has_begun()) {
-    auto solved = beside_->wait(progress);
-    beside_.reset();
-    if (!solved) return solved.error();
-    reference_ = Reference{sets, *std::move(solved)};
-    return {};
-  }
-  beside_.reset();
-  std::shared_ptr<const DistanceMethod> kept;
-  const Stopwatch watch;
-  if (use_ == Use::kSession || model_.space) {
-    auto made = make(better_options(answers.options, kind), nullptr, part_of(progress, 0.0, 0.3));
-    if (!made) return made.error();
-    kept = *std::move(made);
-  }
-  auto solved = kept ? geotherm::solve_reference(*kept, sets, part_of(progress, 0.3, 1.0))
-                     : geotherm::solve_reference(model_.mesh, kind, sets, answers.options.threads,
-                                                 triangulation_for_waves(beside), progress);
+  const auto begun = std::exchange(beside_, nullptr);
+  auto solved = begun && begun->has_begun() ? begun->wait(progress)
+                                            : reference(kind, sets, answers.options.threads,
+                                                        progress, triangulation_for_waves(beside));
   if (!solved) return solved.error();
-  solved->milliseconds = watch.milliseconds();
   reference_ = Reference{sets, *std::move(solved)};
   return {};
 }
@@ -169,18 +198,11 @@ Result<void> ModelSolver::settle(Answer& answer, AccuracyReport report,
     auto found = find_remedy(report, checked_answers(answer), settings.against,
                              with_prefix(progress, "finding the cause: "));
     if (!found) return found;
-    const Warning line = accuracy_line(report);
-    if (settings.on_poor == OnPoor::kFail) {
-      if (auto right = refuse_poor(report, line); !right) {
-        return about_model(model_.name, right.error());
-      }
-    }
-    if (auto warning = accuracy_warning(report, line)) {
-      answer.warnings.push_back(*std::move(warning));
-    }
   }
   answer.error = std::make_shared<const AccuracyReport>(std::move(report));
-  return {};
+  if (settings.quick) return {};
+  const auto right = warn_or_fail(answer, settings.on_poor);
+  return right ? right : about_model(model_.name, right.error());
 }
 
 Result<void> ModelSolver::check(Answer& answer, const CheckSettings& settings,
@@ -207,25 +229,11 @@ Result<void> ModelSolver::replace(Answer& answer, const ResolvedSources& sources
         hold(checked_answers(*next), against, Check::kOn, *answer.method, part_of(part, 0.5, 1.0));
     if (!report) return report.error();
     next->error = std::make_shared<const AccuracyReport>(*std::move(report));
+    next->report_ms = answer.report_ms;
+    describe_mesh(*next);
     return next;
   };
-  auto better = ask_better<Answer>(answer.options, better_methods(answer.options.method, check),
-                                   progress, ask);
-  if (!better) return better.error();
-  if (!*better) {
-    describe_mesh(answer);
-    answer.warnings.push_back(*accuracy_warning(*answer.error, accuracy_line(*answer.error)));
-    return {};
-  }
-  Answer& next = **better;
-  describe_mesh(next);
-  next.report_ms = answer.report_ms;
-  next.replaced = answer.error;
-  std::ranges::copy(replaced_warnings(answer.options.method, accuracy_line(*next.replaced),
-                                      next.options.method, *next.error, accuracy_line(*next.error)),
-                    std::back_inserter(next.warnings));
-  answer = std::move(next);
-  return {};
+  return replace_poor(answer, better_methods(answer.options.method, check), progress, ask);
 }
 
 Result<CheckedMethod> ModelSolver::check_method(const ReadyMethod& ready,
@@ -239,7 +247,8 @@ Result<CheckedMethod> ModelSolver::check_method(const ReadyMethod& ready,
   /// Asks `by` for the sample and holds that against the method `against`.
   const auto checked = [&](const ReadyMethod& by, MethodKind against, bool searches,
                            const Progress& part) -> Result<SampleCheck> {
-    const MethodKind near_exact = model_.space ? model_.space->rival() : MethodKind::kWavefront;
+    const MethodKind near_exact =
+        model_.space ? model_.space->reference_method() : MethodKind::kWavefront;
     if (!is_better(near_exact, by.options.method) && searches) {
       return SampleCheck{unchecked(by.options.method, settings.against), all.size(), 0};
     }
@@ -262,16 +271,9 @@ Result<CheckedMethod> ModelSolver::check_method(const ReadyMethod& ready,
                        part_of(checking, 0.0, 0.5));
   if (!check) return check.error();
   CheckedMethod out{ready, *std::move(check), {}, {}};
-  const Warning line = accuracy_line(out.error);
-  if (settings.on_poor == OnPoor::kFail) {
-    if (auto right = refuse_poor(out.error.report, line); !right) {
-      return about_model(model_.name, right.error());
-    }
-  }
   if (settings.on_poor != OnPoor::kBetter || !out.error.report.is_poor()) {
-    if (auto warning = accuracy_warning(out.error.report, line)) {
-      out.warnings.push_back(*std::move(warning));
-    }
+    const auto right = warn_or_fail(out, settings.on_poor);
+    if (!right) return about_model(model_.name, right.error());
     return out;
   }
   const auto ask = [&](const MethodOptions& options,
@@ -283,18 +285,9 @@ Result<CheckedMethod> ModelSolver::check_method(const ReadyMethod& ready,
     if (!error) return error.error();
     return CheckedMethod{*by, *std::move(error), {}, {}};
   };
-  auto better = ask_better<CheckedMethod>(ready.options,
-                                          better_methods(ready.options.method, settings.against),
-                                          part_of(checking, 0.5, 1.0), ask);
-  if (!better) return better.error();
-  if (!*better) {
-    out.warnings.push_back(*accuracy_warning(out.error.report, line));
-    return out;
-  }
-  (*better)->replaced = std::move(out.error);
-  out = **std::move(better);
-  out.warnings = replaced_warnings(ready.options.method, line, out.by.options.method,
-                                   out.error.report, accuracy_line(out.error));
+  const auto kinds = better_methods(ready.options.method, settings.against);
+  const auto done = replace_poor(out, kinds, part_of(checking, 0.5, 1.0), ask);
+  if (!done) return done.error();
   return out;
 }
 

@@ -28,12 +28,12 @@ const ReadyMethod* find_in(const std::vector<ReadyMethod>& all, const MethodOpti
 
 }  // namespace
 
-void name_rival(const Space& space, std::vector<Warning>& warnings) {
+void name_reference_method(const Space& space, std::vector<Warning>& warnings) {
   for (Warning& warning : warnings) {
     for (auto& part : warning.hint) {
       auto* const setting = std::get_if<SettingHint>(&part);
       if (setting != nullptr && setting->name == "method") {
-        setting->values = {to_text(space.rival())};
+        setting->values = {to_text(space.reference_method())};
       }
     }
   }
@@ -148,7 +148,7 @@ Result<std::vector<Index>> ModelSolver::nearest_sources(const SourceSet& sources
     return only;
   }
   MethodOptions options;
-  options.method = model_.space ? model_.space->rival() : MethodKind::kWavefront;
+  options.method = model_.space ? model_.space->reference_method() : MethodKind::kWavefront;
   options.threads = threads;
   if (options.method == MethodKind::kHeat) {  // there is no wave
     return about_model(model_.name,
@@ -220,7 +220,7 @@ Result<Answer> ModelSolver::distances(const MethodOptions& options, const Resolv
   add(answer.warnings, answer.method->warnings());
   add(answer.warnings, sources.warnings);
   add(answer.warnings, answer.result.warnings);
-  if (model_.space) name_rival(*model_.space, answer.warnings);
+  if (model_.space) name_reference_method(*model_.space, answer.warnings);
   return answer;
 }
 
@@ -228,7 +228,11 @@ void ModelSolver::describe_mesh(Answer& answer) const {
   answer.mesh = *summary_;
   if (answer.reach.is_bounded()) return;
   Index unreached = answer.distance.unreached;
-  if (!model_.space) return add(answer.warnings, unreached_notes(*summary_, unreached));
+  if (!model_.space) {
+    // Sessions answer often, and a weld may take as long as an answer.
+    const TriangleMesh* const whole = use_ == Use::kOneAnswer ? model_.mesh.get() : nullptr;
+    return add(answer.warnings, unreached_notes(*summary_, unreached, whole));
+  }
   if (model_.space->has_walls()) unreached -= model_.space->unused_vertices();
   if (unreached <= 0) return;
   answer.warnings.push_back({counted(unreached, "vertex is", "vertices are") + " in no " +
@@ -291,17 +295,16 @@ Result<Answer> ModelSolver::answer_all(const MethodOptions& options, const Resol
         answer->report_ms = watch.milliseconds();
       });
   if (!report) return report.error();
-  if (checks && report->is_poor() && wanted.check.on_poor == OnPoor::kBetter) {
-    answer->error = std::make_shared<const AccuracyReport>(*std::move(report));
-    auto done = replace(*answer, sources, wanted, with_prefix(checking, "answering again: "));
-    if (!done) return done.error();
-    return answer;
-  }
   describe_mesh(*answer);
   if (!checks) return answer;
-  if (auto done = settle(*answer, *std::move(report), wanted.check, checking); !done) {
-    return done.error();
+  Result<void> done;
+  if (report->is_poor() && wanted.check.on_poor == OnPoor::kBetter) {
+    answer->error = std::make_shared<const AccuracyReport>(*std::move(report));
+    done = replace(*answer, sources, wanted, with_prefix(checking, "answering again: "));
+  } else {
+    done = settle(*answer, *std::move(report), wanted.check, checking);
   }
+  if (!done) return done.error();
   return answer;
 }
 

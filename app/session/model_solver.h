@@ -49,7 +49,7 @@ inline bool exact_leads_tree(std::size_t paths, const Model& model) {
 }
 
 /// The library names methods of surfaces as a way out; in a space its own is one.
-void name_rival(const Space& space, std::vector<Warning>& warnings);
+void name_reference_method(const Space& space, std::vector<Warning>& warnings);
 
 /// Answers questions about one model. Every command and the viewer ask here. It keeps what later
 /// questions can use: factors, the wave surface, the last reference. What is done beside it (rows
@@ -99,6 +99,17 @@ class ModelSolver {
   Result<CheckedMethod> check_method(const ReadyMethod& ready, std::span<const SourceSet> sets,
                                      const CheckSettings& settings, const Progress& progress = {});
 
+  /// What distances of `checked` are held against; a method that is no better where none is there.
+  MethodKind reference_of(MethodKind checked, const CheckSettings& settings) const;
+  /// Whether a is more accurate than b on this model.
+  bool is_better(MethodKind a, MethodKind b) const;
+  /// Distances to hold others against, by a method of that kind. `triangulation`: as
+  /// solve_reference() of the library takes it; a session does not use it. Errors: those of set-up
+  /// and queries.
+  Result<ReferenceAnswers> reference(
+      MethodKind kind, std::span<const SourceSet> sets, int threads, const Progress& progress = {},
+      std::shared_ptr<const IntrinsicSurface> triangulation = nullptr);
+
   /// V: group (source_groups()) of the nearest source by the wavefront method, kNoIndex where none
   /// can be. `distances`: finite where a source can be. Errors: those of its set-up and query.
   Result<std::vector<Index>> nearest_sources(const SourceSet& sources,
@@ -124,9 +135,7 @@ class ModelSolver {
                             const Wanted& wanted, const Progress& progress);
 
   // model_check.cpp
-  MethodKind reference_of(MethodKind checked, const CheckSettings& settings) const;
   MethodKind reference_of_better(MethodKind kind, Check check) const;
-  bool is_better(MethodKind a, MethodKind b) const;
   std::vector<MethodKind> better_methods(MethodKind poor, Check check) const;
   Result<void> solve_reference(MethodKind kind, const CheckedAnswers& answers,
                                const DistanceMethod& beside, const Progress& progress);

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <charconv>
 #include <filesystem>
 #include <system_error>
 #include <utility>
@@ -13,6 +14,7 @@
 #include "app/session/wording.h"
 #include "app/text/text.h"
 #include "solver/core/text.h"
+#include "solver/mesh/frames.h"
 
 namespace geotherm::app {
 namespace {
@@ -49,7 +51,19 @@ Result<void> check_place(const std::string& path) {
 
 std::string resolved_path(const std::string& path) {
   std::error_code unknown;
-  return fs::weakly_canonical(fs::absolute(path, unknown), unknown).string();
+  return end_of_links(fs::absolute(path, unknown).string());
+}
+
+/// Nothing where there is no file, or a folder, a device or a pipe.
+std::optional<FileId> id_of(const std::string& path) {
+  struct stat found {};
+  if (::stat(path.c_str(), &found) != 0 || !S_ISREG(found.st_mode)) return std::nullopt;
+  return FileId{found.st_dev, found.st_ino};
+}
+
+std::vector<InputFile>& files_of_process() {
+  static std::vector<InputFile> files;
+  return files;
 }
 
 /// `resolved`: of both. Hard links are the same file, too.
@@ -61,8 +75,51 @@ bool same_file(const std::string& a, const std::string& resolved_a, const std::s
 
 }  // namespace
 
-void Outputs::protect(const std::string& path, std::string_view called) {
-  if (!path.empty()) inputs_.push_back({path, resolved_path(path), std::string(called)});
+std::vector<FileId> files_named(const std::string& text) {
+  std::vector<FileId> found;
+  const auto add = [&found](const std::string& path) {
+    if (const auto id = id_of(path)) found.push_back(*id);
+  };
+  for (std::size_t from = 0; from < text.size(); from = text.find(':', from) + 1) {
+    const std::string rest = text.substr(from);
+    add(rest);
+    const std::size_t last = rest.rfind(':');
+    if (last == std::string::npos) break;
+    add(rest.substr(0, last));
+  }
+  const auto numbered = NumberedPath::parse(text);
+  if (!numbered) return found;
+  const fs::path form(text), folder = form.has_parent_path() ? form.parent_path() : ".";
+  const std::size_t place = form.filename().string().find('%');
+  std::error_code failed;
+  for (fs::directory_iterator entry(folder, failed), none; !failed && entry != none;
+       entry.increment(failed)) {
+    const std::string name = entry->path().filename().string();
+    std::int64_t number = -1;
+    std::from_chars(name.data() + std::min(place, name.size()), name.data() + name.size(), number);
+    if (number < 0 || fs::path(numbered->path(number)).filename() != name) continue;
+    add(entry->path().string());
+  }
+  return found;
+}
+
+void remember_files(std::vector<InputFile> named) { files_of_process() = std::move(named); }
+
+void Outputs::protect(const std::string& text, std::string_view called) {
+  for (const FileId& id : files_named(text)) inputs_.push_back({id, std::string(called)});
+}
+
+std::string Outputs::called_input(const std::string& path, std::string_view option) const {
+  const std::optional<FileId> id = id_of(path);
+  if (!id) return {};
+  for (const InputFile& input : inputs_) {
+    if (input.id == *id) return input.called;
+  }
+  if (!option.starts_with("--")) return {};
+  for (const InputFile& named : files_of_process()) {
+    if (named.id == *id && named.option != option) return named.called;
+  }
+  return {};
 }
 
 Result<void> Outputs::expect(const std::string& path, std::string_view option) {
@@ -85,10 +142,9 @@ Result<void> Outputs::expect(const std::string& path, std::string_view option) {
   }
   if (path != "-") {
     if (auto place = check_place(path); !place) return place;
-    for (const Input& input : inputs_) {
-      if (!same_file(path, resolved, input.path, input.resolved)) continue;
+    if (const std::string called = called_input(path, option); !called.empty()) {
       return Error{ErrorCode::kBadInput,
-                   std::string(option) + ": " + one_line(path) + " is " + input.called,
+                   std::string(option) + ": " + one_line(path) + " is " + called,
                    {"give another name"}};
     }
   }
@@ -155,7 +211,11 @@ Result<void> Outputs::write_text(const std::string& path, std::string text,
 std::vector<std::string> Outputs::made() const {
   std::vector<std::string> paths;
   for (const File& file : files_) {
-    if (file.written && file.is_new && file.path != "-") paths.push_back(file.path);
+    if (file.written && file.is_new && file.path != "-") {
+      std::error_code unknown;
+      const bool is_link = fs::is_symlink(file.path, unknown);
+      paths.push_back(is_link ? file.resolved : file.path);
+    }
   }
   return paths;
 }

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "geotherm/error.h"
@@ -12,17 +14,36 @@
 
 namespace geotherm::app {
 
+/// What the system knows a file by, whatever it is called: its device and its number there.
+using FileId = std::pair<std::uint64_t, std::uint64_t>;
+
+/// A file that a command reads.
+struct InputFile {
+  FileId id;
+  std::string called;       ///< "the model itself"
+  std::string option = {};  ///< what it was given to, "--mask"; empty: none
+};
+
+/// The files that `text` names: a path, a path between colons, as in keep:FILE, or all files that
+/// there are of a name such as frame_%04d.obj. None where nothing is called so.
+std::vector<FileId> files_named(const std::string& text);
+
+/// What the command line names, in any of its options: expect() refuses it to every other option.
+/// Set once, before there are other threads.
+void remember_files(std::vector<InputFile> named);
+
 /// The output files of one command: checked before the work, written after it, and when one of them
 /// fails, those that the command made are removed again.
 class Outputs {
  public:
-  /// A file that the command reads: expect() then refuses it. `called`: "the model itself".
-  /// Nothing happens without a path.
-  void protect(const std::string& path, std::string_view called);
+  /// Files that are read, as files_named() finds them: expect() then refuses them.
+  void protect(const std::string& text, std::string_view called);
 
-  /// `option`: how the command line calls it, for messages. "-" is standard output.
-  /// Errors: kBadInput (the same path twice, standard output twice, a protected file), kBadFile
-  /// (no such folder, a directory, no permission).
+  /// `option`: how the command line calls it, "--output", or what else wants the file, for
+  /// messages.
+  /// "-" is standard output.
+  /// Errors: kBadInput (the same path twice, standard output twice, a protected file, and of an
+  /// option one that another option names), kBadFile (no such folder, a directory, no permission).
   Result<void> expect(const std::string& path, std::string_view option);
 
   /// True when an output goes to standard output, which is then for nothing else.
@@ -59,11 +80,11 @@ class Outputs {
     bool written = false;
     bool waits = false;  ///< beside its place
   };
-  struct Input {
-    std::string path, resolved, called;
-  };
+  /// What a file that is read is called; empty: this one is not.
+  std::string called_input(const std::string& path, std::string_view option) const;
+
   std::vector<File> files_;
-  std::vector<Input> inputs_;
+  std::vector<InputFile> inputs_;
   std::optional<FileGroup> group_;
 };
 

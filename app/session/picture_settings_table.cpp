@@ -49,7 +49,7 @@ Result<void> set_colour_map(State& s, const Text& text) {
 }
 
 /// A switch of the picture; `bare`: what its option stands for.
-template <bool PictureSettings::*kMember>
+template <auto kMember>
 Setting picture_switch(std::string_view name, std::string_view option, std::string_view bare,
                        std::string_view help) {
   return {
@@ -59,16 +59,19 @@ Setting picture_switch(std::string_view name, std::string_view option, std::stri
       .option = option,
       .bare = bare,
       .help = help,
-      .get = [](const State& s) { return switch_text(s.picture.*kMember); },
-      .set = [](State& s, const Text& t) { return store(parse_switch(t), s.picture.*kMember); }};
+      .get = [](const State& s) { return switch_text(member_of(s, kMember)); },
+      .set = [](State& s, const Text& t) { return store(parse_switch(t), member_of(s, kMember)); }};
 }
 
 }  // namespace
 
 std::vector<Setting> picture_settings_table() {
   return {
-      choice<&PictureSettings::view>(
-          {.name = "view", .group = kPicture, .value_name = "VIEW", .help = "what is shown"}),
+      choice<&PictureSettings::view>({.name = "view",
+                                      .group = kPicture,
+                                      .usual = true,
+                                      .value_name = "VIEW",
+                                      .help = "what is shown"}),
       {.name = "size",
        .group = kPicture,
        .value_name = "WxH",
@@ -87,6 +90,7 @@ std::vector<Setting> picture_settings_table() {
                                                             }}),
       {.name = "colour-map",
        .group = kPicture,
+       .usual = true,
        .option = "--colour-map,--colormap",
        .value_name = "NAME",
        .help = "colours of the distances",
@@ -102,6 +106,7 @@ std::vector<Setting> picture_settings_table() {
        .set = set_range},
       {.name = "spacing",
        .group = kPicture,
+       .usual = true,
        .value_name = "D",
        .help = "distance between isolines in model units; 0: none; auto: a round number",
        .get =
@@ -121,6 +126,7 @@ std::vector<Setting> picture_settings_table() {
            .help = "form: darker in hollows and towards outlines; plain: by the light alone"}),
       choice<&PictureSettings::background>({.name = "background",
                                             .group = kPicture,
+                                            .usual = true,
                                             .value_name = "NAME",
                                             .help = "background of the picture"}),
       picture_switch<&PictureSettings::bar>("bar", "--no-bar", "off", "the colour bar"),
@@ -130,6 +136,7 @@ std::vector<Setting> picture_settings_table() {
                                                 "marks where the sources are"),
       {.name = "slice",
        .group = kPicture,
+       .usual = true,
        .value_name = "NORMAL",
        .help = "removes what lies on this side of a plane, so that one sees into a volume; also "
                "NX:NY:NZ",

@@ -228,13 +228,14 @@ class Resolver {
     }
     v = mesh_.standing_for(v);
     if (!used_[v]) {
-      // Faces that a mask leaves out are one corner three times.
-      const bool masked = std::ranges::any_of(
-          mesh_.faces(), [](const Face& f) { return f[0] == f[1] && f[1] == f[2]; });
-      return misplaced("vertex " + std::to_string(v) + (masked ? " is masked out, or" : "") +
-                           " belongs to no " + cell_word(space_) +
-                           ", so that no distance starts there",
-                       "choose another");
+      // Those that a mask leaves out repeat it, too.
+      const bool some_repeat = std::ranges::any_of(mesh_.faces(), repeats_corner);
+      return misplaced(
+          "vertex " + std::to_string(v) + " belongs to no " + cell_word(space_) +
+              (some_repeat ? " (those that repeat a corner or that a mask leaves out are none)"
+                           : "") +
+              ", and no distance is there",
+          "choose another");
     }
     set_.add(SurfacePoint::at_vertex(v), offset);
     return {};

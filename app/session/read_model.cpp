@@ -53,13 +53,12 @@ Result<Model> model_of_volume(TetFile file, std::string name, const std::string&
 
 Result<Model> model_of_polygons(const ModelInput& input, std::string name,
                                 const std::string& path) {
-  std::vector<std::string> notes;
-  auto polygons = read_polygons(input, &notes);
-  if (!polygons) return polygons.error();
-  auto space = PolygonSpace::build(*std::move(polygons));
+  auto file = read_polygons(input);
+  if (!file) return file.error();
+  auto space = PolygonSpace::build(std::move(file->mesh));
   if (!space) return about(one_line(path), space.error());
   Model model{std::move(name), path, (*space)->triangles(), 0, {}};
-  for (std::string& note : notes) model.notes.push_back({std::move(note)});
+  for (std::string& note : file->notes) model.notes.push_back({std::move(note)});
   model.space = *std::move(space);
   return model;
 }

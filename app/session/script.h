@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "app/session/command.h"
+#include "app/session/outputs.h"
 #include "geotherm/error.h"
 
 // What commands may write. Scripts come from others: none may reach a file that is not its own.
@@ -54,6 +55,9 @@ class CommandLog {
 /// Whether a command goes on with what the one before it began, as of a drag: both are undone
 /// together.
 bool continues(const Command& before, const Command& now);
+
+/// For what a session writes: the files that it shows are refused.
+Outputs outputs_beside(const ViewerState& state);
 
 /// The file that a command writes; null: it writes none.
 const std::string* saved_path(const Command& command);

@@ -18,7 +18,7 @@ namespace geotherm::app {
 enum class SculptTool {
   kPull,    ///< out of the surface, along the mean normal of the patch
   kPush,    ///< into it
-  kSmooth,  ///< each vertex towards the mean of its neighbours; on the border of those there
+  kSmooth,  ///< each vertex towards the mean of its neighbours; on the boundary of those there
 };
 inline NamedValues<SculptTool> named_values(SculptTool) {
   using enum SculptTool;

@@ -7,6 +7,7 @@
 
 #include "app/session/script.h"
 #include "app/session/session_state.h"
+#include "app/session/settings.h"
 #include "app/session/wording.h"
 #include "app/text/text.h"
 
@@ -27,6 +28,28 @@ bool is_any_of(const Command& command) {
 bool needs_answers(const Command& command) {
   return is_any_of<command::SavePicture, command::SaveDistances, command::SaveMesh,
                    command::SaveFigures, command::Compare, command::Quit>(command);
+}
+
+/// The part of a request that a command changes; none: it changes nothing of it.
+std::optional<ExplorePart> changed_part(const Command& command) {
+  using enum ExplorePart;
+  if (const auto* set = std::get_if<command::Set>(&command)) {
+    const Setting* const setting = find_setting(set->name);
+    if (setting == nullptr || setting->of_picture()) return {};
+    return setting->group == SettingGroup::kModel ? kModel : kMethod;
+  }
+  if (is_any_of<command::Open>(command)) return kModel;
+  if (is_any_of<command::ShowSequence, command::ShowFrame>(command)) return kFrame;
+  if (is_any_of<command::Sculpt, command::ExtendStroke>(command)) return kStrokes;
+  if (is_any_of<command::ShowField>(command)) return kField;
+  if (is_any_of<command::Target, command::ShowCentre, command::Pick>(command)) return kTarget;
+  if (is_any_of<command::Keep, command::Swap, command::MaxDistance>(command)) return kMethod;
+  if (is_any_of<command::SetSources, command::AddSources, command::MoveSource,
+                command::RemoveSource, command::ExtendCurve, command::MoreSources,
+                command::FewerSources, command::ShuffleSources>(command)) {
+    return kSources;
+  }
+  return {};
 }
 
 bool same_but_camera(const ViewerState& a, ViewerState b) {
@@ -101,6 +124,10 @@ Result<void> Session::State::perform(const Command& command, const Session& sess
   }
   auto next = app::apply(state, command);
   if (!next) return next.error();
+  if (std::holds_alternative<command::Pick>(command)) {
+    if (auto there = check_picked(*next); !there) return there;
+  }
+  note_asked(command);
   if (std::holds_alternative<command::Open>(command)) {
     if (!before_opening) before_opening = Before{state, opening, undo, redo};
     opening = ++last_opening;
@@ -123,6 +150,38 @@ Result<void> Session::State::perform(const Command& command, const Session& sess
   if (undo_rule(command).undoable && !failure.empty()) requested.reset();
   state = *std::move(next);
   return {};
+}
+
+/// Keeps which line of a script has asked for what is not worked out yet.
+void Session::State::note_asked(const Command& command) {
+  const auto part = changed_part(command);
+  if (!part) return;
+  if (*part == ExplorePart::kModel) asked.clear();
+  std::erase_if(asked, [&part](const Asked& each) { return each.part == *part; });
+  if (!line_at_work.empty()) asked.push_back({*part, line_at_work});
+}
+
+/// The line of a script that asked for what failed. Empty: no script did, or its line is said
+/// anyway, where it ends.
+std::string Session::State::line_to_blame(ExplorePart part) const {
+  using enum ExplorePart;
+  std::string line;
+  if (!line_at_work.empty()) return line;
+  for (const Asked& each : asked) {  // not each method takes each source
+    const bool is_it = each.part == part || (part == kMethod && each.part == kSources);
+    if (is_it || (line.empty() && each.part == kModel)) line = each.line;
+  }
+  return line;
+}
+
+/// Whether the model has the face that is picked, as far as it is known.
+Result<void> Session::State::check_picked(const ViewerState& next) const {
+  if (!next.picked || !explored.model || before_opening) return {};
+  const Index faces = explored.model->model.mesh->face_count();
+  if (next.picked->face < faces) return {};
+  return Error{ErrorCode::kBadInput,
+               "pick: there is no face " + std::to_string(next.picked->face),
+               {"faces are 0 to " + std::to_string(faces - 1)}};
 }
 
 Result<void> Session::State::submit(const Command& command, const Session& session, Giver giver) {
@@ -190,11 +249,11 @@ void Session::State::pump(const Session& session) {
     const auto [name, line] = std::move(script.front());
     script.pop_front();
     if (line.unseen && hooks.seen) continue;  // a window has its own size and letters
+    line_at_work = name + ": line " + std::to_string(line.number);
     const auto done = submit(line.command, session, Giver::kScript);
     if (!done && !first_error) first_error = done.error();
-    if (first_error) {
-      first_error = about(name + ": line " + std::to_string(line.number), *first_error);
-    }
+    if (first_error) first_error = about(line_at_work, *first_error);
+    line_at_work.clear();
   }
   if (script.empty()) scripts_run = 0;
   refresh();

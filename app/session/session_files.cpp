@@ -13,7 +13,6 @@
 #include "app/session/settings.h"
 #include "app/text/text.h"
 #include "geotherm/io.h"
-#include "solver/mesh/frames.h"
 
 namespace geotherm::app {
 namespace {
@@ -36,13 +35,10 @@ std::string full_path(const std::string& path) {
   return std::filesystem::weakly_canonical(path, unknown).string();
 }
 
-/// The file of a command, never the model or its frames.
+/// The file of a command, never one that the session shows.
 Result<Outputs> output_file(const ViewerState& state, const std::string& path,
                             const char* command) {
-  Outputs outputs;
-  if (!is_bundled(state.model)) outputs.protect(state.model, "the model itself");
-  const std::string& frames = state.timeline.sequence;
-  if (!is_numbered(frames)) outputs.protect(frames, "the sequence itself");
+  Outputs outputs = outputs_beside(state);
   if (auto expected = outputs.expect(path, command); !expected) return expected.error();
   return outputs;
 }
@@ -122,6 +118,15 @@ std::string session_text(const ViewerState& state) {
 }
 
 }  // namespace
+
+Outputs outputs_beside(const ViewerState& state) {
+  Outputs outputs;
+  if (!is_bundled(state.model)) outputs.protect(state.model, "the model itself");
+  outputs.protect(state.timeline.sequence, "of the sequence itself");
+  outputs.protect(state.field, "the field itself");
+  outputs.protect(state.reading.mask, "the mask itself");
+  return outputs;
+}
 
 Result<void> Session::State::check_place(const Command& command, Giver giver) const {
   if (auto named = check_saved_name(command); !named) return named;

@@ -72,6 +72,9 @@ struct Session::State {
   Result<void> perform(const Command& command, const Session& session, Giver giver);
   Result<void> run_script(const std::string& path);
   void pump(const Session& session);
+  void note_asked(const Command& command);
+  std::string line_to_blame(ExplorePart part) const;
+  Result<void> check_picked(const ViewerState& next) const;
   void step_back(std::vector<ViewerState>& from, std::vector<ViewerState>& to);
   void note(LogLine::Kind kind, std::string text, Hint hint = {});
   void note(LogLine::Kind kind, const Warning& said) { note(kind, said.message, said.hint); }
@@ -84,7 +87,7 @@ struct Session::State {
   bool leave_out_centre(const ExploreRequest& request);
   void start(const ExploreRequest& request);
   bool take();
-  void say_failure(const Error& error);
+  void say_failure(const Error& error, ExplorePart part);
   bool close_opening();
   void look_head_on();
   bool take_more_of_model(const std::shared_ptr<const ExploredModel>& model);
@@ -92,7 +95,8 @@ struct Session::State {
   void note_warnings(const Explored& before);
   void note_error(const Explored& before);
   void note_centre(const Explored& before);
-  void take_answer(const ExploreRequest& request, Result<Explored> answer);
+  void take_answer(const ExploreRequest& request, Result<Explored> answer,
+                   ExplorePart part = ExplorePart::kMethod);
   Result<void> start_compare(const command::Compare& command);
   ExploreRequest studied_request() const;
   void start_study();
@@ -116,6 +120,12 @@ struct Session::State {
   std::string failure;
   std::optional<Error> first_error;
   std::deque<std::pair<std::string, ScriptLine>> script;  ///< where from, what
+  std::string line_at_work;  ///< of a script: "FILE: line 3"; empty: none
+  struct Asked {
+    ExplorePart part;
+    std::string line;
+  };
+  std::vector<Asked> asked;  ///< by which lines, in their order, since the last answer
   int scripts_run = 0;
   std::set<std::string> saved_by_scripts;  ///< full paths, without links
   std::uint64_t opening = 0, last_opening = 0;
@@ -139,6 +149,7 @@ struct Session::State {
   struct Answered {
     ExploreRequest request;
     Result<Explored> answer;
+    ExplorePart part = ExplorePart::kModel;  ///< that it came to
   };
   struct Studied {
     std::uint64_t number;  ///< of State::studies

@@ -2,34 +2,37 @@
 // The error over the time factor, worked out beside the window.
 #include <new>
 
-#include "app/session/model_solver.h"
 #include "app/session/session_state.h"
+#include "app/session/sweep.h"
 
 namespace geotherm::app {
 namespace {
 
 constexpr double kFactors[] = {0.25, 0.5, 1, 2, 4, 8, 16, 32, 64};
 
-/// One answer after the other, each told when it is there. False: cancelled.
+/// Tells, after each answer, what has come out so far.
 template <class Tell>
-void study_factors_of(const Model& model, const ResolvedSources& sources, MethodOptions options,
+void study_factors_of(const Model& model, const SourceSet& sources, MethodOptions options,
                       const Progress& progress, Tell tell) {
-  ModelSolver solver(model, ModelSolver::Use::kSession);
+  ModelSolver solver(model);
   SessionStudy study{.running = true};
+  std::vector<MethodOptions> steps;
   for (const double factor : kFactors) {
     options.time_step.factor = factor;
-    auto answer = solver.solve(options, sources, {{.quality = false}}, progress);
-    Result<void> done = answer ? Result<void>() : answer.error();
-    if (done) done = solver.check(*answer, {.against = Check::kOn, .quick = true}, progress);
-    if (!done) {
-      if (done.error().code != ErrorCode::kCancelled) study.failure = done.error().message;
-      break;
-    }
-    if (answer->error && answer->error->measured) {
-      study.points.push_back({factor, answer->error->figures.mean_relative});
-    }
-    tell(study);
+    steps.push_back(options);
   }
+  const auto take = [&](const StudyRow& row) {
+    if (row.mean_error) study.points.push_back({row.factor, *row.mean_error});
+    if (row.failure) study.failure = row.failure->message;
+    tell(study);
+    return !row.failure;
+  };
+  const auto better = solver.reference(solver.reference_of(options.method, {Check::kOn}),
+                                       {&sources, 1}, options.threads, part_of(progress, 0.0, 0.1));
+  const Result<void> done = better ? sweep(solver, sources, steps, better->distances.front(), take,
+                                           part_of(progress, 0.1, 1.0))
+                                   : better.error();
+  if (!done && done.error().code != ErrorCode::kCancelled) study.failure = done.error().message;
   study.running = false;
   tell(study);
 }
@@ -57,7 +60,7 @@ void Session::State::start_study() {
                     options = state.options](const Progress& progress) {
     const auto tell = [this, number](const SessionStudy& so_far) { post(Studied{number, so_far}); };
     try {
-      study_factors_of(model->model, {set, {}}, options, progress, tell);
+      study_factors_of(model->model, set, options, progress, tell);
     } catch (const std::bad_alloc&) {
       tell({.failure = "the memory ended"});
     }

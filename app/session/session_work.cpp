@@ -115,6 +115,7 @@ void Session::State::start(const ExploreRequest& request) {
     Answered message{request, explorer.explore(request, progress, [&](Explored early) {
                        post(Early{request.opening, std::move(early), answers_of(request)});
                      })};
+    message.part = explorer.part();
     post(std::move(message));
   };
   if (worker) {
@@ -158,7 +159,7 @@ bool Session::State::take() {
                                      " vertices, " + size_in_words(explored.model->model));
       look_head_on();
     } else if (auto* answered_now = std::get_if<Answered>(&message)) {
-      take_answer(answered_now->request, std::move(answered_now->answer));
+      take_answer(answered_now->request, std::move(answered_now->answer), answered_now->part);
     } else if (auto* part = std::get_if<Studied>(&message)) {
       if (part->number == studies) study = std::move(part->study);
     } else if (auto* compared = std::get_if<Compared>(&message)) {
@@ -203,9 +204,10 @@ void Session::State::look_head_on() {
   note(LogLine::Kind::kCommand, commands.last_line());
 }
 
-void Session::State::say_failure(const Error& error) {
+void Session::State::say_failure(const Error& error, ExplorePart part) {
   failure = sentence(error);
-  if (!first_error) first_error = error;
+  const std::string line = line_to_blame(part);
+  if (!first_error) first_error = line.empty() ? error : about(line, error);
   note(error);
 }
 
@@ -222,7 +224,8 @@ bool Session::State::close_opening() {
   return true;
 }
 
-void Session::State::take_answer(const ExploreRequest& request, Result<Explored> answer) {
+void Session::State::take_answer(const ExploreRequest& request, Result<Explored> answer,
+                                 ExplorePart part) {
   const bool is_last = requested && requested->covers(request) && request.covers(*requested);
   if (!answer) {
     if (!is_last) return;  // the request was superseded; its failure is not reported
@@ -232,7 +235,7 @@ void Session::State::take_answer(const ExploreRequest& request, Result<Explored>
       return;
     }
     const bool said = cancelled && !failure.empty();
-    if (!said) say_failure(answer.error());
+    if (!said) say_failure(answer.error(), part);
     if (close_opening() && explored.model) refresh();
     return;
   }
@@ -243,7 +246,12 @@ void Session::State::take_answer(const ExploreRequest& request, Result<Explored>
   if (before.model) note_model(*before.model);
   answered = request;
   if (is_last) failure.clear();
-  if (is_last && explored.b_failure) say_failure(*explored.b_failure);
+  if (is_last && explored.b_failure) say_failure(*explored.b_failure, ExplorePart::kMethod);
+  if (auto there = check_picked(state); !there) {
+    say_failure(there.error(), ExplorePart::kTarget);
+    state.picked.reset();
+  }
+  if (is_last) asked.clear();
   if (!explored.a) return;
   if (explored.shown) {
     note_centre(before);

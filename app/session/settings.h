@@ -32,6 +32,7 @@ struct Setting {
   SettingGroup group = SettingGroup::kMethod;
   SettingKind kind = SettingKind::kWord;
   bool of_heat = false;          ///< only the heat method uses it
+  bool usual = false;            ///< many change it: panels show it at once, others on request
   std::string_view option = {};  ///< spellings of the option where they are others
   std::string_view bare = {};    ///< what the option stands for by itself; empty: it takes a value
   std::string_view value_name = {};  ///< of the option's value in the help, such as "M"
@@ -79,7 +80,7 @@ template <class Value, class Part>
 auto& member_of(auto& state, Value Part::*member) {
   if constexpr (std::is_base_of_v<Part, MethodOptions>) {
     return state.options.*member;
-  } else if constexpr (std::is_same_v<Part, PictureSettings>) {
+  } else if constexpr (std::is_base_of_v<Part, PictureSettings>) {
     return state.picture.*member;
   } else if constexpr (std::is_same_v<Part, ModelReading>) {
     return state.reading.*member;

@@ -302,7 +302,7 @@ Result<std::vector<Source>> as_curve(const std::string& shown, const std::vector
     if (list == nullptr) {
       return Error{ErrorCode::kBadFile,
                    source.where + ": not a vertex id",
-                   {SettingHint{"curve"}, " joins vertices, one id a line"}};
+                   {"a curve joins vertices, one id a line"}};
     }
     curve.vertices.push_back(list->vertices.front());
   }

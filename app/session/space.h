@@ -56,7 +56,7 @@ class Space {
   virtual bool has_walls() const { return false; }
   Index unused_vertices() const { return static_cast<Index>(std::ranges::count(used_, 0)); }
   /// Near-exact, and there is nothing better: what heat is held against.
-  MethodKind rival() const { return rival_; }
+  MethodKind reference_method() const { return reference_method_; }
 
   virtual Index cell_count() const = 0;
   /// The vertices of a cell as sources number it, in the order of their weights.
@@ -97,13 +97,13 @@ class Space {
                              std::span<const DataField> fields) const = 0;
 
  protected:
-  Space(const SpaceWords& words, std::vector<char> used, MethodKind rival)
-      : words_(words), used_(std::move(used)), rival_(rival) {}
+  Space(const SpaceWords& words, std::vector<char> used, MethodKind reference_method)
+      : words_(words), used_(std::move(used)), reference_method_(reference_method) {}
 
  private:
   SpaceWords words_;
   std::vector<char> used_;
-  MethodKind rival_;
+  MethodKind reference_method_;
 };
 
 /// The values of an answer in `cells`: eikonal errors, lost gradients or angles of gradients; none

@@ -13,6 +13,7 @@
 #include "app/session/sources.h"
 #include "geotherm/build_method.h"
 #include "geotherm/directions.h"
+#include "geotherm/names.h"
 
 namespace geotherm::app {
 
@@ -22,6 +23,10 @@ enum class Shown {
   kB,           ///< the kept ones
   kDifference,  ///< d_A - d_B
 };
+inline NamedValues<Shown> named_values(Shown) {
+  using enum Shown;
+  return {"'*' cannot be shown", {{kA, "a"}, {kB, "b"}, {kDifference, "difference"}}};
+}
 
 /// The frames of a surface that moves.
 struct Timeline {

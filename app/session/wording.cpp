@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "app/session/wording.h"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
+#include <variant>
 
 #include "app/session/progress.h"
 #include "app/text/text.h"
@@ -10,7 +12,7 @@
 #include "geotherm/heat_method.h"
 #include "geotherm/options.h"
 #include "solver/core/text.h"
-#include "solver/method/mapped_method.h"
+#include "solver/heat/peak_memory.h"
 
 namespace geotherm::app {
 namespace {
@@ -44,6 +46,11 @@ Error about(const std::string& where, const Error& error) {
 Error about(const std::string& where, Error error, ErrorCode code) {
   error.code = code;
   return about(where, error);
+}
+
+bool is_about_setting(const Error& error) {
+  const auto names_one = [](const auto& part) { return std::holds_alternative<SettingHint>(part); };
+  return error.code == ErrorCode::kBadInput && std::ranges::any_of(error.hint, names_one);
 }
 
 Error with_hint(Error error, Hint hint) {
@@ -99,7 +106,7 @@ LaplacianChoice auto_laplacian(const MeshReport& mesh) {
 std::string refinement_in_words(const RefinementCounts& refinement) {
   std::string text = counted(refinement.points, "vertex", "vertices") + " inserted";
   if (refinement.boundary_splits > 0) {
-    text += " (" + grouped(refinement.boundary_splits) + " on the border)";
+    text += " (" + grouped(refinement.boundary_splits) + " on the boundary)";
   }
   std::vector<std::string> reasons;
   if (refinement.large_faces > 0) {
@@ -107,7 +114,7 @@ std::string refinement_in_words(const RefinementCounts& refinement) {
   }
   if (refinement.obtuse_boundary > 0) {
     reasons.push_back(
-        counted(refinement.obtuse_boundary, "obtuse border edge", "obtuse border edges"));
+        counted(refinement.obtuse_boundary, "obtuse boundary edge", "obtuse boundary edges"));
   }
   return text + " for " + joined(reasons, " and ");
 }
@@ -134,7 +141,7 @@ Warning crack_note(const CrackReport& cracks) {
               ": the surface is cracked",
           {SettingHint{"weld", {distance}},
            " closes " + grouped(cracks.closed_edges) + " of " +
-               counted(cracks.border_edges, "border edge", "border edges")}};
+               counted(cracks.boundary_edges, "boundary edge", "boundary edges")}};
 }
 
 std::vector<Warning> mesh_warnings(const MeshReport& mesh) {

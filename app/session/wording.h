@@ -29,6 +29,9 @@ Warning warning_of(Error error);
 Error about(const std::string& where, const Error& error);
 Error about(const std::string& where, Error error, ErrorCode code);
 
+/// Whether another setting is what cures it: then the command line is wrong, and not the model.
+bool is_about_setting(const Error& error);
+
 /// The error with this hint, unless it has one.
 Error with_hint(Error error, Hint hint);
 
@@ -56,7 +59,7 @@ struct LaplacianChoice {
 };
 LaplacianChoice auto_laplacian(const MeshReport& mesh);
 
-/// "31 vertices inserted (4 on the border) for 40 large faces and 3 obtuse border edges".
+/// "31 vertices inserted (4 on the boundary) for 40 large faces and 3 obtuse boundary edges".
 /// Precondition: there are some.
 std::string refinement_in_words(const RefinementCounts& refinement);
 

@@ -89,10 +89,8 @@ Result<void> SceneScreen::update_data(const Session& session) {
     uploaded_.reset();
     kept_.reset();
   }
-  const PictureSettings& settings = state.picture;
-  const Uploaded now{explored.version, state.shown,       settings.view,     settings.colour_map,
-                     settings.reverse, settings.slice,    settings.slice_at, settings.peel,
-                     settings.bands,   settings.path_kind};
+  const PictureDataSettings& settings = state.picture;
+  const Uploaded now{explored.version, state.shown, settings};
   if (uploaded_ == now) return {};
   set_explored(data_, explored, state.shown, settings.view);
   if (auto done = upload_data(settings); !done) return done;
@@ -113,7 +111,7 @@ Result<void> SceneScreen::update_surface(const PictureData& next,
 }
 
 /// The whole model stays on the device as it is; what is cut is uploaded with each change.
-Result<void> SceneScreen::upload_data(const PictureSettings& settings) {
+Result<void> SceneScreen::upload_data(const PictureDataSettings& settings) {
   cut_rays_.reset();
   if (is_cut(data_, settings)) {
     cut_ = cut_picture(data_, settings);

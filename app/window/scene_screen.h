@@ -93,7 +93,7 @@ class SceneScreen {
   static Result<std::unique_ptr<SceneScreen>> prepare(const engine::DeviceOptions& options);
   Result<void> update_data(const Session& session);
   Result<void> update_surface(const PictureData& next, const std::vector<glm::vec3>& positions);
-  Result<void> upload_data(const PictureSettings& settings);
+  Result<void> upload_data(const PictureDataSettings& settings);
   void update_legend(const PictureSettings& settings);
 
   // In the order of creation; the last go first.
@@ -109,14 +109,7 @@ class SceneScreen {
   struct Uploaded {
     std::uint64_t version = 0;
     Shown shown = Shown::kA;
-    View view = View::kContours;
-    std::string colour_map;
-    bool reverse = false;
-    std::optional<std::array<double, 3>> slice;
-    double slice_at = 0;
-    Peel peel;
-    int bands = 0;
-    PathKind path_kind{};
+    PictureDataSettings settings;
     bool operator==(const Uploaded&) const = default;
   };
   std::optional<Uploaded> uploaded_;

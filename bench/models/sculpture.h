@@ -62,7 +62,7 @@ double distance_to(const RoundBox& shape, const Vec3& p);
 double distance_to(const Sheet& shape, const Vec3& p);
 double distance_to(const Shape& shape, const Vec3& p);
 
-/// The same shape on the other side of the plane x = 0.
+/// A shape mirrored at the plane x = 0.
 Shape mirrored(const Shape& shape);
 
 /// A point of a curve with the radius of the solid around it.
@@ -105,7 +105,7 @@ class Sculpture {
   std::vector<int> all_parts() const;
   double distance(const Vec3& p, Parts parts) const;
 
-  /// Those of `parts` that can matter within `radius` of `center`; `distance_there` gets the
+  /// The parts among `parts` that can matter within `radius` of `center`; `distance_there` gets the
   /// distance at the centre. Shapes only: how much the detail may add is detail_height().
   std::vector<int> cull(const Vec3& center, double radius, Parts parts,
                         double& distance_there) const;

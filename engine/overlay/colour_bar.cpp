@@ -75,7 +75,7 @@ void draw_triangle(const Bar& bar, bool beyond_high, float base, float tip, cons
 
 float arrow_length(float bar_width) { return std::round(0.6F * bar_width); }
 
-/// What lies beyond the ends has their colours.
+/// Draws an arrow at each end beyond which there are values, in the colour of that end.
 void draw_arrows(const Legend& legend, const Bar& bar, float stroke, Overlay& overlay) {
   const float width = bar.upright ? bar.max.x - bar.min.x : bar.max.y - bar.min.y;
   const float tip = arrow_length(width);
@@ -180,7 +180,7 @@ float title_height(const std::vector<std::string>& title, const Measures& m,
   return atlas.line_height() * static_cast<float>(title.size()) + std::round(0.6F * m.line);
 }
 
-/// At the right side; nothing where it does not fit.
+/// Draws the bar at the right side; draws nothing where it does not fit.
 BarPlace draw_column(const Legend& legend, const Measures& m, glm::vec2 extent, float top,
                      float bottom, Overlay& overlay) {
   const GlyphAtlas& atlas = overlay.atlas;

@@ -81,7 +81,7 @@ glm::vec2 size_of_keys(const Legend& legend, const Measures& m, const GlyphAtlas
           atlas.line_height() * static_cast<float>(legend.keys.size())};
 }
 
-/// In the upper left corner, from `top` on.
+/// Draws the keys in the upper left corner, from `top` on.
 void draw_keys(const Legend& legend, const Measures& m, glm::vec2 size, float top,
                Overlay& overlay) {
   draw_paper(legend, {m.margin, top}, {m.margin + size.x, top + size.y}, m.margin, overlay);

@@ -53,7 +53,7 @@ void join_vertices(const SurfaceGeometry& geometry, float side, CoarseSurface& c
   }
 }
 
-/// Those whose corners stay apart, each once.
+/// Keeps the faces whose corners stay apart, each of them once.
 void keep_faces(const SurfaceGeometry& geometry, CoarseSurface& coarse) {
   struct Kept {
     std::array<std::uint32_t, 3> sorted;

@@ -28,7 +28,7 @@ Error error_of(vk::Result status, std::string_view what) {
     case vk::Result::eErrorDeviceLost:
       return {ErrorCode::kNoDevice,
               doing + ": the device was lost (its driver has given up)",
-              {"try again, or another device of geotherm devices"}};
+              {"try again, or another device"}};
     case vk::Result::eErrorIncompatibleDriver:
       return {ErrorCode::kNoDevice,
               doing + ": the Vulkan loader found no driver",
@@ -36,7 +36,7 @@ Error error_of(vk::Result status, std::string_view what) {
     default:
       return {ErrorCode::kNoDevice,
               doing + ": Vulkan answered " + vk::to_string(status),
-              {"try another device of geotherm devices"}};
+              {"try another device"}};
   }
 }
 

@@ -74,7 +74,7 @@ Memory::Memory(const MemorySource& source, const vk::MemoryRequirements& require
     throw Failure(
         {ErrorCode::kNoDevice,
          "the device has no memory of the kind that is needed (" + vk::to_string(needed) + ")",
-         {"try another one of geotherm devices"}});
+         {"try another device"}});
   }
   source.budget->take(requirements.size);
   try {

@@ -68,7 +68,7 @@ constexpr auto kFloat3 = vk::Format::eR32G32B32Sfloat;
 
 }  // namespace
 
-/// In what the pipelines differ.
+/// The properties in which the pipelines differ.
 struct Pipelines::Plan {
   Code vertex, fragment;
   std::vector<vk::VertexInputBindingDescription> bindings;

@@ -15,7 +15,7 @@
 
 namespace geotherm::engine {
 
-/// How a failure travels inside the engine; guarded() turns it into a Result at the border.
+/// How a failure travels inside the engine; guarded() turns it into a Result for those outside.
 class Failure : public std::exception {
  public:
   explicit Failure(Error error) : error_(std::move(error)) {}

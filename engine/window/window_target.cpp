@@ -114,7 +114,7 @@ vk::SurfaceFormatKHR choose_format(const vk::raii::PhysicalDevice& device, vk::S
   }
   throw Failure({ErrorCode::kNoDevice,
                  "the window takes no plain 8-bit colours from this device",
-                 {"try another device of geotherm devices"}});
+                 {"try another device"}});
 }
 
 using Stage = vk::PipelineStageFlagBits2;
@@ -190,7 +190,7 @@ void WindowTarget::State::make_surface() {
   if (device->physical.getSurfaceSupportKHR(device->queue_family, *surface) == VK_FALSE) {
     throw Failure({ErrorCode::kNoDevice,
                    "the device '" + device->info.name + "' cannot show pictures in this window",
-                   {"try another device of geotherm devices"}});
+                   {"try another device"}});
   }
   format = choose_format(device->physical, *surface);
   stale = true;
@@ -263,7 +263,7 @@ bool WindowTarget::State::follow() {
     if (renewed) {
       throw Failure({ErrorCode::kNoDevice,
                      "drawing in the window: its surface was lost twice",
-                     {"start again, or draw with geotherm render"}});
+                     {"start again, or draw into a file"}});
     }
   }
 }

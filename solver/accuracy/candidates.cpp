@@ -39,7 +39,7 @@ class Candidates {
     add_time_steps();
     add_laplacian();
     if (mesh_.boundary_edges > 0) {
-      reset("boundary", options_.boundary, &MethodOptions::boundary, "the rule of the border");
+      reset("boundary", options_.boundary, &MethodOptions::boundary, "the boundary rule");
     }
     reset("heat", options_.heat, &MethodOptions::heat, "the heat mode");
     reset("variant", options_.variant, &MethodOptions::variant, "the variant");
@@ -161,7 +161,7 @@ std::vector<Candidate> heat_candidates(const MethodOptions& options, const MeshR
   return Candidates(options, mesh, relative_t).take();
 }
 
-std::vector<Candidate> space_candidates(const MethodOptions& options, bool has_border,
+std::vector<Candidate> space_candidates(const MethodOptions& options, bool has_boundary,
                                         double relative_t) {
   std::vector<Candidate> out = heat_candidates(options, {}, relative_t);
   std::erase_if(out, [](const Candidate& each) { return each.option == "laplacian"; });
@@ -172,7 +172,7 @@ std::vector<Candidate> space_candidates(const MethodOptions& options, bool has_b
   }
   for (const BoundaryRule rule :
        {BoundaryRule::kAuto, BoundaryRule::kAverage, BoundaryRule::kNeumann}) {
-    if (!has_border || rule == options.boundary) continue;
+    if (!has_boundary || rule == options.boundary) continue;
     out.push_back({"boundary", to_text(rule), {}, kFactor, options});
     out.back().options.boundary = rule;
   }

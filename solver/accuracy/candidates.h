@@ -27,12 +27,12 @@ struct Candidate {
 std::vector<Candidate> heat_candidates(const MethodOptions& options, const MeshReport& mesh,
                                        double relative_t);
 
-/// The same in a space that is no triangle mesh, with the time factor 1/2 as well. `has_border`:
+/// The same in a space that is no triangle mesh, with the time factor 1/2 as well. `has_boundary`:
 /// whether there is a boundary for rules.
-std::vector<Candidate> space_candidates(const MethodOptions& options, bool has_border,
+std::vector<Candidate> space_candidates(const MethodOptions& options, bool has_boundary,
                                         double relative_t);
 
-/// The same options on a mesh with four times the faces.
+/// The candidate that keeps the options and refines the mesh to four times the faces.
 Candidate refined_candidate(const MethodOptions& options);
 
 /// Makes a method of the space that is searched.

@@ -4,10 +4,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <string_view>
 
 #include "solver/accuracy/distance_bounds.h"
 #include "solver/core/parallel.h"
 #include "solver/core/text.h"
+#include "solver/heat/normalize.h"
 
 namespace geotherm {
 
@@ -154,7 +156,7 @@ constexpr double kSmallTime = 1e-3;
 constexpr double kWrongSlope = 0.4;
 /// Faces within a Dirichlet boundary, whose corners are all held, are no loss in a corner or two.
 /// Above this share of all faces they are.
-constexpr double kBorderShare = 0.1;
+constexpr double kBoundaryShare = 0.1;
 
 /// `words`, and the setting that t follows from.
 Hint time_hint(const std::string& words, TimeRule rule) {
@@ -162,45 +164,69 @@ Hint time_hint(const std::string& words, TimeRule rule) {
   return {words, SettingHint{"time-factor"}};
 }
 
-Hint other_border() { return {"use ", SettingHint{"boundary", {"neumann", "average"}}}; }
+Hint other_boundary_rule() { return {"use ", SettingHint{"boundary", {"neumann", "average"}}}; }
 
 std::string share(Index count, std::size_t of) {
   return "(" + rounded_text(100.0 * count / static_cast<double>(std::max<std::size_t>(of, 1))) +
          " %)";
 }
 
+/// Whether most of the cells are cut off by a boundary that is held at 0.
+bool is_cut_off(const HeatOptions& options, const CellCounts& cells) {
+  return options.boundary == BoundaryRule::kDirichlet &&
+         cells.without_direction > kBoundaryShare * cells.in_reach;
+}
+
 void add_lost_cells(const HeatOptions& options, const CellCounts& cells, const char* names,
                     DistanceResult& result) {
   const bool dirichlet = options.boundary == BoundaryRule::kDirichlet;
-  const bool mostly_border = dirichlet && cells.without_direction > kBorderShare * cells.in_reach;
-  const Index lost = mostly_border ? cells.without_direction : result.quality.zero_gradient_faces;
+  const bool mostly_boundary = is_cut_off(options, cells);
+  const Index lost = mostly_boundary ? cells.without_direction : result.quality.zero_gradient_faces;
   if (lost == 0) return;
   result.warnings.push_back(
       {"the heat has no direction on " + std::to_string(lost) + " of " +
            std::to_string(cells.in_reach) + " " + names + " " +
            share(lost, static_cast<std::size_t>(cells.in_reach)) +
-           (dirichlet ? ": the border, held at 0, cuts them off"
+           (dirichlet ? ": the boundary, held at 0, cuts them off"
                       : ", distances there follow their surroundings"),
-       dirichlet ? other_border() : time_hint("raise ", options.time_step.rule)});
+       dirichlet ? other_boundary_rule() : time_hint("raise ", options.time_step.rule)});
 }
 
-void add_clamped_vertices(const HeatOptions& options, DistanceResult& result) {
+void add_clamped_vertices(const HeatOptions& options, BelowLine below, DistanceResult& result) {
   const Index clamped = result.quality.clamped_vertices;
   if (clamped == 0) return;
   Warning warning{counted_text(static_cast<std::size_t>(clamped), "vertex ", "vertices ") +
                   share(clamped, static_cast<std::size_t>(result.quality.reached_vertices)) +
-                  " had a distance below 0, which was set to 0"};
+                  (below == BelowLine::kRaised
+                       ? " came out below 0, and the straight line to the nearest source stands "
+                         "there instead"
+                       : " had a distance below 0, which was set to 0")};
   if (options.boundary == BoundaryRule::kDirichlet) {
-    warning.hint = other_border();
+    warning.hint = other_boundary_rule();
   } else if (options.constraint.mode != ConstraintMode::kPinSources) {
     warning.hint = {SettingHint{"constraint", {"pin-sources"}}, " holds every source at 0"};
   } else {
     warning.message +=
-        ": the heat carries no information there, and distances around them are too short, up to " +
-        rounded_text(result.quality.clamped_reach) + " from the sources in a straight line";
+        below == BelowLine::kRaised
+            ? ": the heat carries no information there, and where ways bend distances are too short"
+            : ": the heat carries no information there, and distances around them are too short, "
+              "up to " +
+                  rounded_text(result.quality.clamped_reach) +
+                  " from the sources in a straight line";
     warning.hint = {"use ", SettingHint{"method", {"wavefront"}}};
   }
   result.warnings.push_back(std::move(warning));
+}
+
+/// What makes the slope right. `cell_names`: as assess_heat() takes them.
+Hint slope_hint(const HeatOptions& options, double unit_t, const CellCounts& cells,
+                std::string_view cell_names) {
+  if (is_cut_off(options, cells)) return other_boundary_rule();
+  if (unit_t > 1) return time_hint("use a smaller ", options.time_step.rule);
+  if (is_extreme_time(unit_t)) return time_hint("raise ", options.time_step.rule);
+  // What is no mesh of faces, such as a grid, has no finer one at hand.
+  if (cell_names != "faces") return {"use ", SettingHint{"method", {"wavefront"}}};
+  return {"refine the mesh"};
 }
 
 }  // namespace
@@ -224,8 +250,10 @@ Result<void> assess_heat(const HeatOptions& options, double unit_t, const CellCo
                          const char* cell_names) {
   const Quality& q = result.quality;
   add_lost_cells(options, cells, cell_names, result);
-  add_clamped_vertices(options, result);
-  add_bound_warnings(MethodKind::kHeat, result);
+  const bool raises = uses_what_is_known(options) && q.lines_checked;
+  const BelowLine below = raises ? BelowLine::kRaised : BelowLine::kKept;
+  add_clamped_vertices(options, below, result);
+  add_bound_warnings(MethodKind::kHeat, result, below);
   for (const bool heat : {true, false}) {
     const double residual = heat ? q.heat_residual : q.poisson_residual;
     const bool direct = (heat ? q.iterations_heat : q.iterations_poisson) == 0;
@@ -250,8 +278,7 @@ Result<void> assess_heat(const HeatOptions& options, double unit_t, const CellCo
     result.warnings.push_back(
         {"the slope of the distance is off by " + rounded_text(q.eikonal_error_mean) +
              " on average, where 1 is right (t is " + rounded_text(unit_t) + " squared mean edges)",
-         unit_t > 1 ? time_hint("use a smaller ", options.time_step.rule)
-                    : Hint{"refine the mesh"}});
+         slope_hint(options, unit_t, cells, cell_names)});
   }
   return {};
 }

@@ -46,8 +46,8 @@ void assess_waves(MethodKind method, const WaveSurface& surface, const SourceSet
   result.quality.eikonal_error_mean =
       sum_slopes(surface.base.intrinsic, result.distances, steep).mean();
   steep.write_to(result.quality);
-  check_straight_lines(surface.base, sources, surface.base.length_unit(), tolerance,
-                       BelowLine::kKept, 1, result);
+  apply_straight_line_bound(surface.base, sources, surface.base.length_unit(), tolerance,
+                            BelowLine::kKept, 1, result);
   add_bound_warnings(method, result);
 }
 

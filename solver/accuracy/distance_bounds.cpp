@@ -202,17 +202,17 @@ BoundTolerance bound_tolerance(MethodKind method) {
   return {1e-6, 1e-6, 1e-6, 1e-6};
 }
 
-void check_straight_lines(const IntrinsicSurface& surface, const SourceSet& sources, double unit,
-                          const BoundTolerance& tolerance, BelowLine below, int threads,
-                          DistanceResult& result) {
-  check_straight_lines(surface.mesh->positions(),
-                       StraightLine(*surface.mesh, sources, surface.mean_edge), surface.mean_edge,
-                       unit, tolerance, below, threads, result);
+void apply_straight_line_bound(const IntrinsicSurface& surface, const SourceSet& sources,
+                               double unit, const BoundTolerance& tolerance, BelowLine below,
+                               int threads, DistanceResult& result) {
+  apply_straight_line_bound(surface.mesh->positions(),
+                            StraightLine(*surface.mesh, sources, surface.mean_edge),
+                            surface.mean_edge, unit, tolerance, below, threads, result);
 }
 
-void check_straight_lines(std::span<const Vec3> positions, const StraightLine& straight,
-                          double mean_edge, double unit, const BoundTolerance& tolerance,
-                          BelowLine below, int threads, DistanceResult& result) {
+void apply_straight_line_bound(std::span<const Vec3> positions, const StraightLine& straight,
+                               double mean_edge, double unit, const BoundTolerance& tolerance,
+                               BelowLine below, int threads, DistanceResult& result) {
   const bool raises = below == BelowLine::kRaised;
   const double to_edges = unit / mean_edge, from_edges = mean_edge / unit;
   const double per_share = 1 / (1 - tolerance.line_share);
@@ -278,7 +278,7 @@ void check_straight_lines(std::span<const Vec3> positions, const StraightLine& s
   result.quality.lines_checked = true;
 }
 
-void add_bound_warnings(MethodKind method, DistanceResult& result) {
+void add_bound_warnings(MethodKind method, DistanceResult& result, BelowLine below) {
   const Quality& q = result.quality;
   if (q.below_straight_line > 0) {
     result.warnings.push_back(
@@ -286,7 +286,10 @@ void add_bound_warnings(MethodKind method, DistanceResult& result) {
              counted_text(static_cast<std::size_t>(q.below_straight_line), "vertex", "vertices") +
              " (" + percent(static_cast<double>(q.below_straight_line) / q.reached_vertices) +
              ") came out below the straight line to the nearest source, by up to " +
-             percent(q.most_below_straight_line) + " of it; it is wrong around there",
+             percent(q.most_below_straight_line) + " of it" +
+             (below == BelowLine::kRaised
+                  ? ", and was raised to it: where ways bend it may still be too short"
+                  : "; it is wrong around there"),
          remedy(method)});
   }
   if (q.steep_edges > 0) {

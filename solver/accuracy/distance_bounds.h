@@ -132,14 +132,16 @@ enum class BelowLine { kKept, kRaised };
 /// units of `unit` (model units). `mean_edge`: what `straight` was made with. Cost: one pass over
 /// the vertices, for K sources O(log K) where the nearest changes; the same figures with any number
 /// of threads. Preconditions: those of StraightLine. Throws std::bad_alloc.
-void check_straight_lines(std::span<const Vec3> positions, const StraightLine& straight,
-                          double mean_edge, double unit, const BoundTolerance& tolerance,
-                          BelowLine below, int threads, DistanceResult& result);
-void check_straight_lines(const IntrinsicSurface& surface, const SourceSet& sources, double unit,
-                          const BoundTolerance& tolerance, BelowLine below, int threads,
-                          DistanceResult& result);
+void apply_straight_line_bound(std::span<const Vec3> positions, const StraightLine& straight,
+                               double mean_edge, double unit, const BoundTolerance& tolerance,
+                               BelowLine below, int threads, DistanceResult& result);
+void apply_straight_line_bound(const IntrinsicSurface& surface, const SourceSet& sources,
+                               double unit, const BoundTolerance& tolerance, BelowLine below,
+                               int threads, DistanceResult& result);
 
-/// A sentence for each bound that the figures say is broken, with what to do.
-void add_bound_warnings(MethodKind method, DistanceResult& result);
+/// A sentence for each bound that the figures say is broken, with what to do. `below`: what became
+/// of distances below the straight line.
+void add_bound_warnings(MethodKind method, DistanceResult& result,
+                        BelowLine below = BelowLine::kKept);
 
 }  // namespace geotherm

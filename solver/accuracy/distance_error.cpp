@@ -74,20 +74,6 @@ double badness(const DistanceError& error) {
   return std::max(error.mean_relative / kGoodError, error.max_of_range / kMaxOfRange);
 }
 
-std::string to_text(Grade grade) {
-  switch (grade) {
-    case Grade::kNearExact:
-      return "near exact";
-    case Grade::kGood:
-      return "good";
-    case Grade::kFair:
-      return "fair";
-    case Grade::kPoor:
-      break;
-  }
-  return "poor";
-}
-
 std::vector<double> signed_error(std::span<const double> d, std::span<const double> e) {
   std::vector<double> out(e.size(), kUnreached);
   for (std::size_t i = 0; i < e.size(); ++i) {

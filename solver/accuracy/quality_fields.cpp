@@ -35,26 +35,6 @@ std::vector<Vec3> heat_directions(const TriangleMesh& mesh, std::span<const doub
 
 namespace {
 
-struct Known {
-  QualityField field;
-  const char* name;
-  DataField::Place place;
-  DataField::Type type;
-};
-
-using FieldPlace = DataField::Place;
-using Type = DataField::Type;
-constexpr std::array kKnown = {
-    Known{QualityField::kError, "error", FieldPlace::kVertices, Type::kFloat64},
-    Known{QualityField::kEikonalError, "eikonal-error", FieldPlace::kFaces, Type::kFloat64},
-    Known{QualityField::kGradientAngle, "gradient-angle", FieldPlace::kFaces, Type::kFloat64},
-    Known{QualityField::kLostGradients, "lost-gradients", FieldPlace::kFaces, Type::kUint8},
-    Known{QualityField::kTriangleQuality, "triangle-quality", FieldPlace::kFaces, Type::kFloat64},
-    Known{QualityField::kNonDelaunay, "non-delaunay", FieldPlace::kFaces, Type::kUint8},
-};
-
-const Known& known(QualityField field) { return *std::ranges::find(kKnown, field, &Known::field); }
-
 std::array<Vec3, 3> corner_places(const TriangleMesh& mesh, const Face& face) {
   const auto positions = mesh.positions();
   return {positions[face[0]], positions[face[1]], positions[face[2]]};
@@ -100,34 +80,19 @@ std::vector<double> values_of(QualityField field, const TriangleMesh& mesh,
 
 }  // namespace
 
-std::string to_text(QualityField field) { return known(field).name; }
-
-Result<QualityField> parse_quality_field(std::string_view text) {
-  std::string names;
-  for (const Known& each : kKnown) {
-    if (text == each.name) return each.field;
-    names += (names.empty() ? "" : ", ") + std::string(each.name);
-  }
-  return Error{ErrorCode::kBadInput,
-               "there is no field '" + std::string(text) + "'",
-               {"there are " + names}};
-}
-
-std::vector<QualityField> all_quality_fields() {
-  std::vector<QualityField> all;
-  for (const Known& each : kKnown) all.push_back(each.field);
-  return all;
-}
-
 bool needs_heat(QualityField field) {
   return field == QualityField::kGradientAngle || field == QualityField::kLostGradients;
 }
 
 DataField described(QualityField field) {
-  const Known& about = known(field);
-  std::string name = about.name;
+  using enum QualityField;
+  std::string name = to_text(field);
   std::ranges::replace(name, '-', '_');
-  return {std::move(name), about.place, about.type, {}};
+  const bool is_count = field == kLostGradients || field == kNonDelaunay;
+  return {std::move(name),
+          field == kError ? DataField::Place::kVertices : DataField::Place::kFaces,
+          is_count ? DataField::Type::kUint8 : DataField::Type::kFloat64,
+          {}};
 }
 
 DataField quality_field(QualityField field, const TriangleMesh& mesh, const DistanceResult& answer,

@@ -11,7 +11,7 @@ constexpr int kLanes = 2;
 #endif
 
 typedef double Register __attribute__((vector_size(8 * kLanes)));
-/// The same at any address.
+/// A register that is loaded from or stored to any address.
 typedef double LooseRegister __attribute__((vector_size(8 * kLanes), aligned(8), may_alias));
 /// The bits of a register; of a comparison, all or none.
 typedef std::uint64_t Bits __attribute__((vector_size(8 * kLanes)));
@@ -21,7 +21,7 @@ inline Register load(const double* from) { return *reinterpret_cast<const LooseR
 inline void store(Register value, double* to) { *reinterpret_cast<LooseRegister*>(to) = value; }
 inline Register all_lanes(double value) { return Register{} + value; }
 
-/// Of a comparison: bit j is set where lane j holds.
+/// The result of a comparison as bits: bit j is set where it holds in lane j.
 inline unsigned lane_mask(Bits bits) {
 #if defined(__AVX512DQ__) && !defined(__clang__)
   return static_cast<unsigned char>(

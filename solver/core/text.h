@@ -64,7 +64,7 @@ inline std::string file_extension(std::string_view path) {
   return extension;
 }
 
-/// That of the format in which something is written: "-" is CSV.
+/// The extension of the format in which a path is written: that of CSV for "-".
 inline std::string written_extension(std::string_view path) {
   return path == "-" ? ".csv" : file_extension(path);
 }

@@ -106,7 +106,7 @@ void HelperThreads::work_on() {
   while (claim(0)) work_(context_, next_++, *this);
 }
 
-/// Until no helper is inside, or one has called for more.
+/// Waits until no helper is at work, or one has called for more.
 void HelperThreads::wait_for_others() {
   const auto over = [this] {
     const std::uint64_t state = state_.load();

@@ -33,7 +33,8 @@ class HelperThreads {
   /// within a pass. `work` must not throw. Throws std::bad_alloc, before anything is called.
   void run(int calls, int helpers, void* context, Work work);
 
-  /// From within a pass: so many calls more, with the next numbers.
+  /// Adds so many calls to the pass that is running, with the next numbers. For calls from within
+  /// `work` alone.
   void call_more(int calls);
 
   /// Threads that have not ended for want of work.

@@ -190,7 +190,7 @@ class CentreDescent {
 
   Result<SurfacePoint> go(const Place& here, double turn, double length) const {
     double angle = angle_of(here.step) + turn;
-    if (here.frame.border) {
+    if (here.frame.on_boundary) {
       angle -= 2 * std::numbers::pi * std::floor(angle / (2 * std::numbers::pi));
     }
     const auto line = directions_.trace(here.point, angle, length);
@@ -211,7 +211,7 @@ Result<void> check_asked(std::span<const SurfacePoint> points, std::span<const d
   }
   if (!weights.empty() && weights.size() != points.size()) {
     return Error{ErrorCode::kBadInput,
-                 std::to_string(weights.size()) + " weights for " +
+                 counted_text(weights.size(), "weight", "weights") + " for " +
                      counted_text(points.size(), "point", "points"),
                  {"give one for each, or none"}};
   }
@@ -231,7 +231,7 @@ Result<void> check_asked(std::span<const SurfacePoint> points, std::span<const d
                {"give 1 or more"}};
 }
 
-/// At every vertex, from near-exact distances.
+/// The energy of a centre at every vertex, from near-exact distances.
 Result<std::vector<double>> energies_at_vertices(const WavefrontMethod& method,
                                                  std::span<const SurfacePoint> points,
                                                  std::span<const double> weights,
@@ -277,17 +277,15 @@ std::vector<Index> starts_of(const TriangleMesh& mesh, const std::vector<double>
   return out;
 }
 
-Vec3 position_of(const TriangleMesh& mesh, const Centre& centre) {
-  return position_at(mesh, centre.point);
-}
-
-void note(const CentreOptions& options, Centres& out) {
+/// `exponent`: of the power of two that lengths are model units of.
+void note(const CentreOptions& options, int exponent, Centres& out) {
   const Centre& best = out.found.front();
   const std::string what = to_text(options.kind);
   if (!best.converged) {
     out.warnings.push_back(
-        {"the descent to the " + what + " stalled with a step of " + rounded_text(best.residual) +
-         " left to do: the point may be a tip, on the border or at a crease of the distances"});
+        {"the descent to the " + what + " stalled with a step of " +
+         rounded_text(std::ldexp(best.residual, exponent)) +
+         " left to do: the point may be a tip, on the boundary or at a crease of the distances"});
   }
   const auto tied = std::ranges::count_if(out.found, [&best](const Centre& other) {
     return other.energy <= best.energy * (1 + kTied);
@@ -298,15 +296,10 @@ void note(const CentreOptions& options, Centres& out) {
                           " is not unique"});
 }
 
-}  // namespace
-
-Result<Centres> find_centres(const std::shared_ptr<const TriangleMesh>& mesh,
-                             std::span<const SurfacePoint> points,
-                             std::span<const double> given_weights, const CentreOptions& options,
-                             const Progress& progress) try {
-  if (auto fine = check_asked(points, given_weights, options); !fine) return fine.error();
-  const std::vector<double> ones(points.size(), 1.0);
-  const std::span<const double> weights = given_weights.empty() ? ones : given_weights;
+/// The centres on a mesh whose lengths are model units over 2^exponent.
+Result<Centres> centres_on(const std::shared_ptr<const TriangleMesh>& mesh,
+                           std::span<const SurfacePoint> points, std::span<const double> weights,
+                           const CentreOptions& options, int exponent, const Progress& progress) {
   const auto surface = build_wave_surface(mesh, part_of(progress, 0, 0.1), options.threads);
   if (!surface) return surface.error();
   const auto method = WavefrontMethod::build(*surface, WavefrontMethod::Samples::kMidpoint,
@@ -350,7 +343,8 @@ Result<Centres> find_centres(const std::shared_ptr<const TriangleMesh>& mesh,
     if (!centre) return centre.error();
     centre->point = pointed->out_of(centre->point);
     const bool known = std::ranges::any_of(out.found, [&](const Centre& other) {
-      return (position_of(*mesh, other) - position_of(*mesh, *centre)).norm() <= kOnePlace * edge;
+      return (position_at(*mesh, other.point) - position_at(*mesh, centre->point)).norm() <=
+             kOnePlace * edge;
     });
     if (!known) out.found.push_back(*std::move(centre));
   }
@@ -358,7 +352,46 @@ Result<Centres> find_centres(const std::shared_ptr<const TriangleMesh>& mesh,
   std::ranges::stable_sort(out.found, {}, &Centre::energy);
   const double most = out.found.front().energy * (1 + kAboutAsLow);
   std::erase_if(out.found, [most](const Centre& centre) { return centre.energy > most; });
-  note(options, out);
+  note(options, exponent, out);
+  return out;
+}
+
+/// The exponent of the mesh's size where squares of lengths may leave the range of doubles, else 0.
+int extreme_exponent(const TriangleMesh& mesh) {
+  constexpr int kUsual = 300, kMost = 1000;  // squares go to 1023
+  double most = 0;
+  for (const Vec3& p : mesh.positions()) most = std::max(most, p.cwiseAbs().maxCoeff());
+  const int exponent = most > 0 ? std::ilogb(most) : 0;
+  return std::abs(exponent) > kUsual ? std::clamp(exponent, -kMost, kMost) : 0;
+}
+
+}  // namespace
+
+Result<Centres> find_centres(const std::shared_ptr<const TriangleMesh>& mesh,
+                             std::span<const SurfacePoint> points,
+                             std::span<const double> given_weights, const CentreOptions& options,
+                             const Progress& progress) try {
+  if (auto fine = check_asked(points, given_weights, options); !fine) return fine.error();
+  const std::vector<double> ones(points.size(), 1.0);
+  const std::span<const double> weights = given_weights.empty() ? ones : given_weights;
+  const int exponent = extreme_exponent(*mesh);
+  if (exponent == 0) return centres_on(mesh, points, weights, options, 0, progress);
+  const double unit = std::ldexp(1.0, exponent);
+  std::vector<Vec3> positions(mesh->positions().begin(), mesh->positions().end());
+  for (Vec3& p : positions) p /= unit;
+  auto scaled = mesh->moved(std::move(positions));
+  if (!scaled) return scaled.error();
+  auto out = centres_on(std::make_shared<const TriangleMesh>(*std::move(scaled)), points, weights,
+                        options, exponent, progress);
+  if (!out) return out;
+  for (Centre& centre : out->found) {
+    centre.residual *= unit;
+    for (double& d : centre.distances) d *= unit;
+    for (int k = 0; k < (options.kind == CentreKind::kMean ? 2 : 1); ++k) {
+      centre.energy *= unit;
+      for (double& energy : centre.energies) energy *= unit;
+    }
+  }
   return out;
 } catch (const std::bad_alloc&) {
   return directions_out_of_memory(mesh->face_count());

@@ -2,6 +2,7 @@
 #include "geotherm/directions.h"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 #include <new>
 #include <numbers>
@@ -24,7 +25,12 @@ void set_axes(TangentFrame& frame, const Vec3& normal, const Vec3& along) {
 
 /// Nothing where the face has no area.
 Vec3 unit_normal(const Vec3& a, const Vec3& b, const Vec3& c) {
-  return (b - a).cross(c - a).stableNormalized();
+  const Vec3 first = b - a, second = c - a;
+  const double longest = std::max(first.cwiseAbs().maxCoeff(), second.cwiseAbs().maxCoeff());
+  if (!(longest > 0)) return Vec3::Zero();
+  // A power of two keeps all digits, and products within the range of doubles.
+  const double scale = std::ldexp(1.0, std::clamp(-std::ilogb(longest), -1020, 1020));
+  return (scale * first).cross(scale * second).stableNormalized();
 }
 
 }  // namespace
@@ -85,7 +91,7 @@ TangentFrame Directions::State::frame_at(const SurfacePoint& clean) const {
   }
   const auto& vertex = fans.vertex(clean.vertex);
   frame.angle = vertex.angle;
-  frame.border = vertex.kind == TangentFans::Kind::kBorder;
+  frame.on_boundary = vertex.kind == TangentFans::Kind::kBoundary;
   // Corners without an order begin with any one; those of no face have none.
   const auto corners = fans.corners_at(clean.vertex);
   if (corners.empty()) return frame;

@@ -132,7 +132,7 @@ WaveStart wave_start(const Directions::State& state, const SourceSeeds& seeds, c
   return out;
 }
 
-/// Of each edge.
+/// How many samples inside an edge the waves of this method have.
 int samples_of(MethodKind waves) { return waves == MethodKind::kWavefront ? 1 : 3; }
 
 Warning in_doubt(Index vertices, std::int64_t of, MethodKind method) {

@@ -180,7 +180,7 @@ class Lloyd {
     }
     if (!(area > 0) || sum.isZero(0)) return point;
     double angle = angle_of(sum);
-    if (map->frame.border && angle < 0) angle += 2 * std::numbers::pi;
+    if (map->frame.on_boundary && angle < 0) angle += 2 * std::numbers::pi;
     const auto line = (*directions)->trace(*own, angle, share * sum.norm() / area);
     if (!line) return line.error();
     length = line->path.length;

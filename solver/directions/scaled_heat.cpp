@@ -102,7 +102,7 @@ ScaledHeat::ScaledHeat(std::span<const Link> links, std::span<const double> mass
   }
 }
 
-/// What a sweep makes of a right side.
+/// Applies one sweep to a right side.
 Complexes ScaledHeat::sweep(Complexes right) const {
   for (Index k = 0; k < size(); ++k) {
     Complex sum = right[k];
@@ -112,7 +112,7 @@ Complexes ScaledHeat::sweep(Complexes right) const {
   return right;
 }
 
-/// The same of the matrix times z.
+/// Applies one sweep to the product of the matrix and z.
 Complexes ScaledHeat::swept_product(const Complexes& z) const {
   Complexes rest(z.size());
   for (Index k = 0; k < size(); ++k) {

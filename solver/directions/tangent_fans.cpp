@@ -45,7 +45,7 @@ Side TangentFans::corner_at(Index v, double angle) const {
   return last;
 }
 
-/// Where the border is, the fan begins there; orientation of its first face is that of the fan.
+/// Where the boundary is, the fan begins there; orientation of its first face is that of the fan.
 void TangentFans::find_fan(Index v) {
   const auto corners = corners_at(v);
   Vertex& at = vertices_[static_cast<std::size_t>(v)];
@@ -61,7 +61,7 @@ void TangentFans::find_fan(Index v) {
   const bool open = begin != kNoSide || end != kNoSide;
   const Side start = begin != kNoSide ? begin : (open ? end : corners.front());
   at.first = start;
-  if (walk(v, start, begin == kNoSide && open)) at.kind = open ? Kind::kBorder : Kind::kInner;
+  if (walk(v, start, begin == kNoSide && open)) at.kind = open ? Kind::kBoundary : Kind::kInner;
 }
 
 /// Whether one way round the vertex meets all of its corners.

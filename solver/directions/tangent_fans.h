@@ -22,10 +22,10 @@ inline std::array<Eigen::Vector2d, 3> corners_of(const std::array<double, 3>& le
 class TangentFans {
  public:
   enum class Kind : char {
-    kNone,    ///< in no face
-    kInner,   ///< one closed fan
-    kBorder,  ///< one open fan
-    kSplit,   ///< several fans, or an edge with three faces or more
+    kNone,      ///< in no face
+    kInner,     ///< one closed fan
+    kBoundary,  ///< one open fan
+    kSplit,     ///< several fans, or an edge with three faces or more
   };
   struct Corner {
     double begin = 0, angle = 0;  ///< radians, not scaled
@@ -35,7 +35,7 @@ class TangentFans {
     Kind kind = Kind::kNone;
     double angle = 0;      ///< of all corners
     Side first = kNoSide;  ///< the corner with which the fan begins
-    /// From angles of corners to directions.
+    /// The factor from angles of corners to directions.
     double scale() const { return kind == Kind::kInner ? 2 * std::numbers::pi / angle : 1; }
   };
 
@@ -47,7 +47,7 @@ class TangentFans {
   std::span<const Side> corners_at(Index v) const { return table_.at(v); }
   /// The other end of the side with which a corner begins.
   Index first_end(Side c) const;
-  /// The corner in which an angle of the fan lies, kNoSide where it is beyond the border.
+  /// The corner in which an angle of the fan lies, kNoSide where it is beyond the boundary.
   Side corner_at(Index v, double angle) const;
 
  private:

@@ -131,7 +131,7 @@ class Tracer {
     const Side leave = 3 * face_ + k;
     const auto around = surface_.sides_of(surface_.edge_of_side(leave));
     if (around.size() != 2) {
-      return end(around.size() == 1 ? TraceEnd::kBorder : TraceEnd::kSplit);
+      return end(around.size() == 1 ? TraceEnd::kBoundary : TraceEnd::kSplit);
     }
     const Side entry = around[0] == leave ? around[1] : around[0];
     const Point2 axis = side.normalized();
@@ -154,8 +154,8 @@ class Tracer {
     if (!(rest_ > 0)) return end(TraceEnd::kLength);
     const auto& vertex = fans_.vertex(v);
     if (vertex.kind != TangentFans::Kind::kInner) {
-      const bool border = vertex.kind == TangentFans::Kind::kBorder;
-      return end(border ? TraceEnd::kBorder : TraceEnd::kSplit);
+      const bool boundary = vertex.kind == TangentFans::Kind::kBoundary;
+      return end(boundary ? TraceEnd::kBoundary : TraceEnd::kSplit);
     }
     const auto& here = fans_.corner(3 * face_ + corner);
     const Point2 first = at_[next_corner(corner)] - at_[corner];
@@ -219,7 +219,7 @@ Result<TracedLine> Directions::trace(const SurfacePoint& point, double direction
     if (!tracer.start_at_vertex(clean->vertex, direction / vertex.scale())) {
       return Error{ErrorCode::kBadInput,
                    "direction " + number_text(direction) + " leaves the surface at vertex " +
-                       std::to_string(clean->vertex) + " on its border",
+                       std::to_string(clean->vertex) + " on its boundary",
                    {"choose one from 0 to " + number_text(vertex.angle)}};
     }
   }

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 // The vector heat method on the intrinsic Delaunay triangulation.
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <new>
 #include <string>
 #include <utility>
@@ -25,6 +27,47 @@ std::shared_ptr<const Surface> surface_of(const HeatMethod* method, const Triang
   auto surface = std::static_pointer_cast<const Surface>(triangulation);
   const bool same = surface->mesh.get() == mesh && surface->backend == backend;
   return same ? surface : nullptr;
+}
+
+/// The power of two that brings the largest of some numbers to between 1 and 2; 0 where all are 0.
+/// Scaled by it they neither vanish beside others nor overflow, and keep their digits.
+int scale_exponent(std::span<const double> numbers) {
+  double most = 0;
+  for (const double x : numbers) most = std::max(most, std::abs(x));
+  return most > 0 ? std::ilogb(most) : 0;
+}
+
+/// Refuses a vertex at which two things are given that differ. `rows`: of the vertices, where the
+/// same row is the same vertex; `same`: whether two in the list are equal.
+template <class Same>
+Result<void> one_given_at_each(std::span<const Index> vertices, std::span<const Index> rows,
+                               const char* what, Same&& same) {
+  std::map<Index, std::size_t> first;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const auto [known, is_new] = first.try_emplace(rows[i], i);
+    if (is_new || same(known->second, i)) continue;
+    return Error{ErrorCode::kBadInput,
+                 "vertex " + std::to_string(vertices[i]) + " was given two different " + what,
+                 {"give one for each vertex"}};
+  }
+  return {};
+}
+
+/// Says how many vertices have no answer, and why. `lost`: in faces, without an answer.
+void note_without_answer(const Components& parts, Index loose, Index lost, const char* what,
+                         Spread& out) {
+  if (loose > 0) {
+    out.warnings.push_back(
+        {counted_text(static_cast<std::size_t>(loose), "vertex belongs", "vertices belong") +
+         " to no face and " + (loose == 1 ? "has" : "have") + " no " + what + " (NaN)"});
+  }
+  if (lost == 0) return;
+  out.warnings.push_back(
+      {counted_text(static_cast<std::size_t>(lost), "vertex lies", "vertices lie") +
+           " in components without a given " + what + " (there are " +
+           counted_text(static_cast<std::size_t>(parts.count), "component", "components") +
+           ") and " + (lost == 1 ? "has" : "have") + " none (NaN)",
+       {"give one in each component"}});
 }
 
 }  // namespace
@@ -100,24 +143,34 @@ Result<Spread> VectorHeat::transport(std::span<const TangentVector> vectors,
                                      const Progress& progress) const try {
   const State& state = *state_;
   std::vector<Index> vertices;
-  std::vector<double> lengths;
+  std::vector<double> lengths, components;
   std::vector<std::complex<double>> given;
   for (const TangentVector& v : vectors) {
     vertices.push_back(v.vertex);
     given.emplace_back(v.x, v.y);
-    lengths.push_back(std::hypot(v.x, v.y));
-    if (!std::isfinite(lengths.back())) {
+    components.insert(components.end(), {v.x, v.y});
+    if (!std::isfinite(v.x) || !std::isfinite(v.y)) {
       return Error{ErrorCode::kBadInput,
                    "the vector at vertex " + std::to_string(v.vertex) + " is not finite",
                    {}};
     }
+  }
+  const int exponent = scale_exponent(components);
+  for (std::complex<double>& v : given) {
+    v = {std::ldexp(v.real(), -exponent), std::ldexp(v.imag(), -exponent)};
+    lengths.push_back(std::abs(v));
   }
   const auto parts = state.vector_parts(part_of(progress, 0, 0.2));
   if (!parts) return parts.error();
   if ((*parts)->broken) return *(*parts)->broken;
   const auto rows = state.rows_of(vertices);
   if (!rows) return rows.error();
+  const auto single =
+      one_given_at_each(vertices, *rows, "vectors",
+                        [&given](std::size_t i, std::size_t k) { return given[i] == given[k]; });
+  if (!single) return single.error();
   Spread out;
+  Index loose = 0, lost = 0;
   const auto warmth = state.warm(*rows, true, out.warnings, part_of(progress, 0.2, 0.4));
   if (!warmth) return warmth.error();
   const auto size = state.spread(*warmth, *rows, lengths, part_of(progress, 0.4, 0.5));
@@ -128,17 +181,20 @@ Result<Spread> VectorHeat::transport(std::span<const TangentVector> vectors,
   for (Index v = 0; v < state.mesh().vertex_count(); ++v) {
     const Index row = state.row_of(v);
     if (row == kNoIndex || warmth->reached[row] == 0) {
+      ++(row == kNoIndex ? loose : lost);
       out.components.push_back({kNaN, kNaN});
       out.vectors.push_back(Vec3::Constant(kNaN));
       continue;
     }
     const double norm = std::abs((*carried)[row]);
     const double factor = norm > 0 ? (*size)[row] / norm : 0;
-    const double x = (*carried)[row].real() * factor, y = (*carried)[row].imag() * factor;
+    const double x = std::ldexp((*carried)[row].real() * factor, exponent);
+    const double y = std::ldexp((*carried)[row].imag() * factor, exponent);
     out.components.push_back({x, y});
     const TangentFrame& frame = (*parts)->frames[state.mesh().standing_for(v)];
     out.vectors.push_back(x * frame.e1 + y * frame.e2);
   }
+  note_without_answer(state.surface->parts_of_rows(), loose, lost, "vector", out);
   return out;
 } catch (const std::bad_alloc&) {
   return directions_out_of_memory(state_->mesh().face_count());
@@ -161,17 +217,27 @@ Result<Spread> VectorHeat::extend(std::span<const Index> vertices, std::span<con
   }
   const auto rows = state.rows_of(vertices);
   if (!rows) return rows.error();
+  const auto single =
+      one_given_at_each(vertices, *rows, "values",
+                        [&values](std::size_t i, std::size_t k) { return values[i] == values[k]; });
+  if (!single) return single.error();
+  const int exponent = scale_exponent(values);
+  std::vector<double> scaled;
+  for (const double value : values) scaled.push_back(std::ldexp(value, -exponent));
   Spread out;
+  Index loose = 0, lost = 0;
   const auto warmth = state.warm(*rows, false, out.warnings, part_of(progress, 0, 0.5));
   if (!warmth) return warmth.error();
-  const auto spread = state.spread(*warmth, *rows, values, part_of(progress, 0.5, 1));
+  const auto spread = state.spread(*warmth, *rows, scaled, part_of(progress, 0.5, 1));
   if (!spread) return spread.error();
   out.t = warmth->t * state.unit() * state.unit();
   for (Index v = 0; v < state.mesh().vertex_count(); ++v) {
     const Index row = state.row_of(v);
     const bool has = row != kNoIndex && warmth->reached[row] != 0;
-    out.values.push_back(has ? (*spread)[row] : kNaN);
+    out.values.push_back(has ? std::ldexp((*spread)[row], exponent) : kNaN);
+    if (!has) ++(row == kNoIndex ? loose : lost);
   }
+  note_without_answer(state.surface->parts_of_rows(), loose, lost, "value", out);
   return out;
 } catch (const std::bad_alloc&) {
   return directions_out_of_memory(state_->mesh().face_count());

@@ -28,7 +28,7 @@ struct Warmth {
   std::vector<char> reached;  ///< a flag for each row that is joined to one of those
   bool scaled = false;        ///< the heat spans more than iterations resolve: solve by ScaledHeat
 
-  /// That at row j over that at row i.
+  /// The heat at row j divided by the heat at row i.
   double ratio(Index j, Index i) const;
 };
 
@@ -66,7 +66,8 @@ struct VectorHeat::State {
   Result<std::vector<double>> spread(const Warmth& warmth, std::span<const Index> rows,
                                      std::span<const double> values,
                                      const Progress& progress) const;
-  /// The same of vectors at rows, which may stand several times. Errors: VectorParts::broken.
+  /// One vector for each of the rows, as the nearest has it; a row may stand in the list several
+  /// times. Errors: VectorParts::broken.
   Result<RowVectors> carry(const Warmth& warmth, std::span<const Index> rows,
                            std::span<const std::complex<double>> vectors,
                            const Progress& progress) const;

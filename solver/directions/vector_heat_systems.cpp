@@ -17,7 +17,7 @@ using Complex = std::complex<double>;
 
 /// A time is made four times as long so often at most: half a million times the width.
 constexpr int kMaxTimes = 20;
-/// Of the largest heat: what conjugate gradients still give to seven digits.
+/// The share of the largest heat down to which conjugate gradients give seven digits.
 constexpr double kLeastOfIterations = 1e-6;
 
 }  // namespace

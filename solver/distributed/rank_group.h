@@ -40,7 +40,7 @@ class RankGroup {
   const MpiModule& module() const { return module_; }
 
   Result<void> agree(const Result<void>& mine) const { return agree_(mine); }
-  /// The same for what has a value.
+  /// Agrees on an outcome that has a value: each rank gets its own value, or all get an error.
   template <class Value>
   Result<Value> agree_on(Result<Value> mine) const {
     const auto all = agree(mine ? Result<void>() : Result<void>(mine.error()));
@@ -79,7 +79,7 @@ class RankGroup {
     return result;
   }
 
-  /// Those of all ranks, in their order.
+  /// The values of all ranks, one rank after the other in their order.
   template <class T>
   std::vector<T> gather(const std::vector<T>& mine) const {
     std::vector<T> all;

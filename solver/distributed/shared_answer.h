@@ -20,7 +20,7 @@ class BlockFaces {
   BlockFaces(const SharedTask& task, const SharedHeat& heat, const MeshBlock& block,
              SourceAnchors anchors);
 
-  /// Of own vertices, in MeshPart::unit.
+  /// Adds the divergence at own vertices to `b`, in MeshPart::unit.
   void add_divergence(std::vector<double>& b) const;
 
   struct Sums {

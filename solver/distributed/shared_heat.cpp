@@ -162,8 +162,8 @@ class Listener {
   bool has_news_ = false;
 };
 
-/// Those that have heard something new solve once each, the nearest to a source first, and what
-/// they find is heard by the others of this rank at once: heat passes all of them in one round.
+/// Each block that has heard something new solves once, the nearest to a source first. The other
+/// blocks of this rank hear its result at once, so that heat passes all of them in one round.
 Result<void> solve_in_turn(std::vector<Listener>& listeners, std::vector<WideNumber>& u,
                            bool& any) {
   std::vector<Listener*> left;

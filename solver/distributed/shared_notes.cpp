@@ -64,8 +64,8 @@ void note_needs(double large, double obtuse, std::vector<Warning>& notes) {
   }
   if (obtuse > 0) {
     what += (what.empty() ? "" : ", and ") +
-            counted_text(static_cast<std::size_t>(obtuse), "edge of the border lies",
-                         "edges of the border lie") +
+            counted_text(static_cast<std::size_t>(obtuse), "edge of the boundary lies",
+                         "edges of the boundary lie") +
             " opposite an obtuse angle";
   }
   notes.push_back({what + ": one process would insert vertices there, which ranks do not, and "
@@ -137,8 +137,8 @@ void check_lines(const SharedTask& task, std::span<const SharedSource> sources,
   for (const SharedSource& source : sources) lines.push_back({source.place(), source.place(), 0.0});
   const double edge = task.components.mean_edge;
   const BelowLine below = uses_what_is_known(task.options) ? BelowLine::kRaised : BelowLine::kKept;
-  check_straight_lines(own, StraightLine(lines, edge), edge, 1, bound_tolerance(MethodKind::kHeat),
-                       below, task.threads, result);
+  apply_straight_line_bound(own, StraightLine(lines, edge), edge, 1,
+                            bound_tolerance(MethodKind::kHeat), below, task.threads, result);
   Quality& q = result.quality;
   std::array<double, 2> sums = {static_cast<double>(q.reached_vertices),
                                 static_cast<double>(q.below_straight_line)};

@@ -25,10 +25,11 @@ namespace {
 /// and the most of them.
 constexpr double kRings = 16;
 constexpr int kMaxRings = 64;
-/// The same for waves: flips near a block's edge reach no farther.
+/// Rings that a block of waves has: flips near a block's edge reach no farther.
 constexpr int kRingsOfWaves = 6;
-/// Of waves, in mean edges: half of a bucket of the front in one process. In wider ones fits see
-/// more old values, and errors on good planes are five times as large; narrower ones gain nothing.
+/// The width of the band of distances that waves settle in one round, in mean edges: half of a
+/// bucket of the front in one process. In wider bands fits see more old values, and errors on good
+/// planes are five times as large; narrower ones gain nothing.
 constexpr double kWaveBand = 0.25;
 
 /// Distances of own vertices to those who have their share of the file.
@@ -89,7 +90,8 @@ Result<std::vector<char>> place(const RankGroup& ranks, const MeshPart& part,
                {"choose another"}};
 }
 
-/// Of vertices of the part: those of others come from their owners.
+/// Completes values of the part's own vertices: values of vertices that belong to other ranks come
+/// from their owners, and are `missing` until then.
 template <class T>
 void fetch_halo(const RankGroup& ranks, const MeshPart& part, T missing, std::vector<T>& values) {
   values.resize(static_cast<std::size_t>(part.size()), missing);
@@ -98,7 +100,7 @@ void fetch_halo(const RankGroup& ranks, const MeshPart& part, T missing, std::ve
   Halo(ranks, part, others).fetch(ranks, values);
 }
 
-/// From the unit of the part to that of the model.
+/// Converts all lengths of the answer from the unit of the part to model units.
 void to_model_units(double unit, SharedAnswer& out) {
   for (double& d : out.distances) d *= unit;
   for (double* const length : {&out.least, &out.most, &out.mean, &out.mean_edge}) *length *= unit;

@@ -192,8 +192,9 @@ class CellMeshBuilder {
     return out_.shares[static_cast<std::size_t>(out_.start[c] + k)];
   }
 
-  /// Of two corners of a plane cell with the measure 1, in proportion to the shares of both: what
-  /// hat functions give the corners of a triangle, 1/12 for shares of 1/3.
+  /// The entry of the consistent mass matrix for two corners of a plane cell with the measure 1. It
+  /// is proportional to the shares of both: for a triangle, whose shares are 1/3, it is 1/12, the
+  /// integral of the product of two hat functions.
   double consistent_mass(Index c, std::ptrdiff_t i, std::ptrdiff_t j) const {
     constexpr double kOfTriangle = 0.75;
     return kOfTriangle * share(c, i) * share(c, j);

@@ -45,10 +45,10 @@ FaceComponents face_components(std::span<const Face> faces, Index vertex_count);
 /// Cracks of a surface: edges of its boundary that lie on each other, or a small share of the mean
 /// edge apart, and what weld() would do about them.
 struct CrackReport {
-  Index vertices = 0;      ///< that would be merged, WeldedMesh::merged; 0: there are no cracks
-  double distance = 0;     ///< that merges them, model units, one digit; 0: they are equal
-  Index border_edges = 0;  ///< edges with one face
-  Index closed_edges = 0;  ///< those of them that would have two faces or more
+  Index vertices = 0;        ///< that would be merged, WeldedMesh::merged; 0: there are no cracks
+  double distance = 0;       ///< that merges them, model units, one digit; 0: they are equal
+  Index boundary_edges = 0;  ///< edges with one face
+  Index closed_edges = 0;    ///< those of them that would have two faces or more
 };
 
 /// A distance up to a hundredth of the mean edge is tried, the smallest that closes the most

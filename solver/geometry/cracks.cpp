@@ -39,22 +39,22 @@ class Seeker {
  public:
   explicit Seeker(const TriangleMesh& mesh) : mesh_(mesh), clean_(clean_faces(mesh)) {
     for (Index e = 0; e < clean_.edges.edge_count(); ++e) {
-      if (clean_.edges.sides(e).size() == 1) border_.push_back(e);
+      if (clean_.edges.sides(e).size() == 1) boundary_.push_back(e);
     }
   }
 
   CrackReport run() {
     CrackReport best;
-    best.border_edges = static_cast<Index>(border_.size());
+    best.boundary_edges = static_cast<Index>(boundary_.size());
     const double mean = mean_edge_length(mesh_.positions(), clean_.edges);
-    if (border_.empty() || !std::isfinite(mean)) return best;
+    if (boundary_.empty() || !std::isfinite(mean)) return best;
     for (const double share : kShares) {
       const double distance = share > 0 ? one_digit_up(share * mean) : 0;
       const auto welded = weld(mesh_, distance);
       if (!welded || collapses(welded->mesh)) break;
       const Index closed = count_closed(welded->mesh);
       if (closed > best.closed_edges) {
-        best = {welded->merged, distance, best.border_edges, closed};
+        best = {welded->merged, distance, best.boundary_edges, closed};
       }
     }
     return best;
@@ -82,7 +82,7 @@ class Seeker {
       if (clean.edges.sides(e).size() > 1)
         inner.push_back({clean.edges.low(e), clean.edges.high(e)});
     }
-    return static_cast<Index>(std::ranges::count_if(border_, [&](Index e) {
+    return static_cast<Index>(std::ranges::count_if(boundary_, [&](Index e) {
       const auto [low, high] = std::minmax(
           {welded.standing_for(clean_.edges.low(e)), welded.standing_for(clean_.edges.high(e))});
       return std::ranges::binary_search(inner, std::array<Index, 2>{low, high});
@@ -91,7 +91,7 @@ class Seeker {
 
   const TriangleMesh& mesh_;
   CleanFaces clean_;
-  std::vector<Index> border_;  ///< edges with one face
+  std::vector<Index> boundary_;  ///< edges with one face
 };
 
 }  // namespace

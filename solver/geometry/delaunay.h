@@ -26,7 +26,7 @@ std::vector<Side> non_delaunay_sides(const IntrinsicMesh& mesh, int threads = 1)
 /// some of the flips made.
 Result<std::vector<Edit>> flip_to_delaunay(IntrinsicMesh& mesh, const Progress& progress = {});
 
-/// The same where its non_delaunay_sides() are known. Cost: O(flips).
+/// Flips to Delaunay where the non_delaunay_sides() are known already. Cost: O(flips).
 Result<std::vector<Edit>> flip_to_delaunay(IntrinsicMesh& mesh, std::vector<Side> sides,
                                            const Progress& progress = {});
 

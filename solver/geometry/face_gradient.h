@@ -16,8 +16,8 @@ namespace geotherm {
 /// no area (height below 1e-14 of its longest side) or a value is not finite.
 Vec3 triangle_gradient(const std::array<Vec3, 3>& corners, const std::array<double, 3>& values);
 
-/// That of every face: `values` has one entry a vertex (V), the result one vector a face (F).
-/// Cost: O(F). Source: Botsch et al., Polygon Mesh Processing (2010), equation 3.8.
+/// The gradient on every face: `values` has one entry a vertex (V), the result one vector a face
+/// (F). Cost: O(F). Source: Botsch et al., Polygon Mesh Processing (2010), equation 3.8.
 std::vector<Vec3> face_gradients(const TriangleMesh& mesh, std::span<const double> values);
 
 }  // namespace geotherm

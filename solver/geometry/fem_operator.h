@@ -50,7 +50,8 @@ class FemOperator final : public DomainOperator {
   /// Weights of a face's pairs of corners: M is its row sums plus, for each pair, weight times the
   /// squared difference.
   std::array<double, 3> weights(std::size_t face) const;
-  /// Those of all sides, by Side; where `wanted` is not empty, of faces at a row with a flag.
+  /// The weights of all sides, by Side; where `wanted` is not empty, only those of faces at a row
+  /// with a flag.
   RawVector<double> side_weights(std::span<const char> wanted = {}) const;
   void set_diagonal();
   void assemble_column(Index j, const RawVector<double>& weight) const;

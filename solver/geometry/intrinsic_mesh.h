@@ -75,9 +75,9 @@ inline double safe_norm(const Vec3& v) {
 
 /// Builds the intrinsic mesh of clean faces. Lengths are divided by `unit` (> 0), so that what
 /// follows sees numbers of order 1 at any scale. Faces that are degenerate or nearly so are
-/// mollified (mollify.h). Edges with a number of sides other than two, or whose faces disagree in
-/// orientation, get no twins.
-/// Cost: O(F).
+/// mollified: a length is added to all edges of their component (Mollification). Edges with a
+/// number of sides other than two, or whose faces disagree in orientation, get no twins. Cost:
+/// O(F).
 IntrinsicMesh build_intrinsic_mesh(std::span<const Vec3> positions, const CleanFaces& clean,
                                    double unit, int threads = 1);
 

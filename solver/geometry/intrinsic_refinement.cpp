@@ -30,10 +30,10 @@ constexpr double kAreaOfPoint = 2.9;
 constexpr double kShareOfPoints = 0.25, kFewPoints = 500;
 /// Barycentric weights below this put a new vertex on the edge.
 constexpr double kOnEdge = 1e-3;
-/// Border edges opposite an angle with a cotangent above this, that of 96 degrees, do no harm: they
-/// are as frequent on good meshes as others.
+/// Boundary edges opposite an angle with a cotangent above this, that of 96 degrees, do no harm:
+/// they are as frequent on good meshes as others.
 constexpr double kObtuse = -0.1;
-/// Border edges shorter than this share of sqrt(t) are left as they are: what is wrong there is
+/// Boundary edges shorter than this share of sqrt(t) are left as they are: what is wrong there is
 /// wrong within that length.
 constexpr double kShortestSplit = 0.02;
 
@@ -158,7 +158,7 @@ std::vector<double> gradings(const IntrinsicMesh& mesh, const Components& parts,
 struct Circumcentre {
   Index face = kNoIndex;
   Weights weights{};
-  Side border = kNoSide;
+  Side boundary = kNoSide;
 };
 
 /// Walks straight from the middle of a face to its circumcentre. Neither a face nor a boundary side
@@ -278,7 +278,7 @@ class Refiner {
   /// Splits a face at its circumcentre, or the boundary edge on the way to that.
   void split_large(Index face) {
     const Circumcentre place = find_circumcentre(mesh_, face);
-    if (place.border != kNoSide) return insert_on_side(place.border, 0.5);
+    if (place.boundary != kNoSide) return insert_on_side(place.boundary, 0.5);
     if (place.face == kNoIndex) return split_longest(face);
     int small = 0, at = 0;
     for (int k = 0; k < 3; ++k) {
@@ -302,12 +302,12 @@ class Refiner {
   void insert_on_side(Side side, double share) {
     const Side other = mesh_.twin[side];
     if (other != kNoSide && face_of(other) == face_of(side)) return;  // glued to itself
-    const bool border = other == kNoSide;
+    const bool boundary = other == kNoSide;
     Weights at{};
     at[corner_of(side)] = 1 - share;
     at[next_corner(corner_of(side))] = share;
-    const Index vertex = add_vertex(face_of(side), at, border);
-    out_.boundary_splits += border ? 1 : 0;
+    const Index vertex = add_vertex(face_of(side), at, boundary);
+    out_.boundary_splits += boundary ? 1 : 0;
     const std::size_t before = edits_.size();
     std::vector<Side> around = split_side(mesh_, side, share, vertex, edits_);
     settle(around, before);
@@ -320,11 +320,11 @@ class Refiner {
     settle(around, before);
   }
 
-  Index add_vertex(Index face, const Weights& weights, bool on_border) {
+  Index add_vertex(Index face, const Weights& weights, bool on_boundary) {
     Vec3 position = Vec3::Zero();
     for (int k = 0; k < 3; ++k) position += weights[k] * position_of(mesh_.faces[face][k]);
     out_.positions.push_back(position);
-    out_.on_border.push_back(on_border ? 1 : 0);
+    out_.on_boundary.push_back(on_boundary ? 1 : 0);
     ++out_.points;
     parts_.of.push_back(parts_.of[mesh_.faces[face][0]]);
     return static_cast<Index>(parts_.of.size()) - 1;

@@ -17,8 +17,8 @@ namespace geotherm {
 struct Refinement : RefinementCounts {
   std::vector<double>
       grading;  ///< per part: that t over its squared mean edge; 1 without large faces
-  std::vector<Vec3> positions;  ///< points x 3: near where they lie, for elimination orders
-  std::vector<char> on_border;  ///< points: the vertex lies on the boundary
+  std::vector<Vec3> positions;    ///< points x 3: near where they lie, for elimination orders
+  std::vector<char> on_boundary;  ///< points: the vertex lies on the boundary
 };
 
 /// The faces and boundary edges for which refine_triangulation() would insert a vertex or raise t.

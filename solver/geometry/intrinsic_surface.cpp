@@ -41,7 +41,7 @@ void note_refinement(const RefinementCounts& refinement, std::vector<Warning>& w
       {counted_text(static_cast<std::size_t>(refinement.points), "vertex was", "vertices were") +
            " inserted into the triangulation, which is the most for this mesh; where faces are "
            "still "
-           "large or the border obtuse, distances may be wrong",
+           "large or the boundary obtuse, distances may be wrong",
        {"use ", SettingHint{"method", {"wavefront"}}}});
 }
 
@@ -84,8 +84,8 @@ Result<void> check_mean_edge(const TriangleMesh& mesh, const CleanFaces& clean, 
 /// A mean edge below this, in those of the whole mesh, is that of a point.
 constexpr double kPointEdge = 1e-60;
 
-/// The faces of a part that is a point were given areas (mollify.h), and these say how long its
-/// edges are.
+/// The faces of a part that is a point were given areas by mollification, and these say how long
+/// its edges are.
 void measure_points(IntrinsicSurface& surface) {
   std::vector<double> area(surface.part_edge.size(), 0.0);
   std::vector<Index> faces(area.size(), 0);

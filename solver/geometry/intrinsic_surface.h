@@ -116,7 +116,7 @@ inline constexpr double kAtCorner = 1e-12;
 /// with weights that sum to 1. Precondition: check_sources().
 SurfacePoint clean_point(const IntrinsicSurface& surface, const SurfacePoint& point);
 
-/// The same of a piece of a curve, whose ends stay in its face.
+/// A piece of a curve with both ends as clean_point() has them; the ends stay in its face.
 FaceSegment clean_segment(const IntrinsicSurface& surface, const FaceSegment& segment);
 
 /// Number in kept->edges of the edge between two vertices, kNoIndex where there is none. Cost:

@@ -124,20 +124,20 @@ void inspect_connections(const TriangleMesh& mesh, const CleanFaces& clean, Mesh
   const auto n = static_cast<std::size_t>(mesh.vertex_count());
   const std::vector<char> used = vertices_in_faces(mesh.vertex_count(), clean.faces);
   std::vector<char> on_boundary(n, 0);
-  DisjointSets borders(n), patches(clean.faces.size());
+  DisjointSets boundaries(n), patches(clean.faces.size());
   const EdgeTable& edges = clean.edges;
   for (Index e = 0; e < edges.edge_count(); ++e) {
     const auto sides = edges.sides(e);
     for (const Side side : sides) patches.join(face_of(sides[0]), face_of(side));
     if (sides.size() == 2) report.orientable &= sides_agree(clean.faces, sides[0], sides[1]);
     if (sides.size() != 1) continue;
-    borders.join(edges.low(e), edges.high(e));
+    boundaries.join(edges.low(e), edges.high(e));
     on_boundary[edges.low(e)] = on_boundary[edges.high(e)] = 1;
   }
   const auto in_use = static_cast<Index>(std::count(used.begin(), used.end(), 1));
   report.edges = edges.edge_count();
   report.edge_components = count_sets(patches, std::vector<char>(clean.faces.size(), 1));
-  report.boundary_loops = count_sets(borders, on_boundary);
+  report.boundary_loops = count_sets(boundaries, on_boundary);
   for (Index v = 0; v < mesh.vertex_count(); ++v) {
     report.merged_vertices += mesh.standing_for(v) != v;
   }

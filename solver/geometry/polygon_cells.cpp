@@ -27,11 +27,13 @@ constexpr std::size_t kMaxCorners = 256;
 /// The triangle between a side and the virtual vertex of its face, or one that a face was cut into.
 struct FanTriangle {
   double area = 0;
-  /// Of the hat functions of the side's ends and of the third corner, in the triangle's frame.
+  /// Gradients of the hat functions of the side's two ends and of the third corner, in the
+  /// triangle's frame.
   Eigen::Vector2d from, to, apex;
 };
 
-/// `along`, `height`: of the third corner, from the first along the side and away from it.
+/// The third corner lies `along` from the first end of the side, measured along the side, and
+/// `height` away from the side.
 FanTriangle triangle_on_side(double side, double along, double height) {
   return {side * height / 2,
           {-1 / side, (along / side - 1) / height},
@@ -77,8 +79,8 @@ struct PolygonElement {
   Vec3 apex = Vec3::Constant(std::numeric_limits<double>::quiet_NaN());
   std::vector<double> areas;                ///< of each triangle; none: the face has no area
   std::vector<Eigen::Matrix2Xd> gradients;  ///< of each triangle: 2 x k
-  /// Of each triangle's area, a third to each of its corners: what the virtual vertex has goes to
-  /// all corners of the face, in equal parts, since a mean's weights may be negative.
+  /// The area that belongs to each corner: a third of each triangle at it. The third of the virtual
+  /// vertex goes to all corners of the face in equal parts, since a mean's weights may be negative.
   std::vector<Eigen::VectorXd> shares;
 };
 

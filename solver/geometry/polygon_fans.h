@@ -16,7 +16,7 @@ namespace geotherm {
 /// turned to the side that their sum is.
 bool sees_all_sides(std::span<const Vec3> corners, const Vec3& virtual_vertex);
 
-/// Of the triangle a, b, c: from a to b, from b to c, from c to a.
+/// The lengths of the sides of the triangle a, b, c: from a to b, from b to c, from c to a.
 inline std::array<double, 3> side_lengths(const Vec3& a, const Vec3& b, const Vec3& c) {
   return {(b - a).norm(), (c - b).norm(), (a - c).norm()};
 }

@@ -123,8 +123,8 @@ class PolygonFlipper {
                            refinement_.positions.end());
     cells.vertices = static_cast<Index>(cells.positions.size());
     cells.on_boundary.resize(static_cast<std::size_t>(first_inserted), 0);
-    cells.on_boundary.insert(cells.on_boundary.end(), refinement_.on_border.begin(),
-                             refinement_.on_border.end());
+    cells.on_boundary.insert(cells.on_boundary.end(), refinement_.on_boundary.begin(),
+                             refinement_.on_boundary.end());
     const auto number_of = [&](Index v) {
       if (v < given_.vertices) return v;
       const Index face = v - given_.vertices;
@@ -174,7 +174,7 @@ class PolygonFlipper {
     return fans_.is_not_manifold[part] != 0;
   }
 
-  /// By the mean sides of the triangles.
+  /// Sets the mean width of each part to the mean side of its triangles.
   void measure_widths(FlippedPolygons& out) const {
     const std::vector<char> touched = touched_triangles();
     out.mean_width.assign(static_cast<std::size_t>(out.parts.count), 0.0);

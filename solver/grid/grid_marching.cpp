@@ -92,7 +92,7 @@ class GridMarch {
 
   std::vector<double> take_distances() { return std::move(distance_); }
   std::vector<Index> take_nearest() { return std::move(nearest_); }
-  /// Where there is a reach: the samples up to there.
+  /// The samples within reach, where the march has one.
   std::vector<NearSample> take_near() { return std::move(near_); }
 
  private:

@@ -33,8 +33,9 @@ std::vector<ComponentSize> measure_cells(const CellMesh& mesh) {
   return sizes;
 }
 
-/// Of this thickness in mean widths t is the square of the mean width, and at least this share of
-/// it in thinner bodies: in irregular ones distances would become too short.
+/// In bodies of the thickness kThickness, in mean widths, t is the square of the mean width; in
+/// thinner ones it is at least the share kLeastTime of that square, since in irregular meshes
+/// distances would become too short.
 constexpr double kThickness = 13, kLeastTime = 0.6;
 /// Below this share of the cube root of the volume a thickness is that of a long or thin body.
 constexpr double kLongBody = 0.6;
@@ -221,8 +222,8 @@ Result<std::vector<NearVertex>> CellDomain::near_field(const SourceAnchors& anch
   return near_polygons(*this, anchors);
 }
 
-void CellDomain::check_straight_lines(const SourceSet& sources, BelowLine below, int threads,
-                                      DistanceResult& result) const {
+void CellDomain::apply_straight_line_bound(const SourceSet& sources, BelowLine below, int threads,
+                                           DistanceResult& result) const {
   if (given->positions.empty() || !given->lengths_are_straight) {
     result.quality.reached_vertices = count_reached(result.distances);
     return;
@@ -241,8 +242,8 @@ void CellDomain::check_straight_lines(const SourceSet& sources, BelowLine below,
     }
     lines.push_back({at, at, 0.0});
   }
-  geotherm::check_straight_lines(given->positions, StraightLine(lines, unit), unit, 1,
-                                 bound_tolerance(MethodKind::kHeat), below, threads, result);
+  geotherm::apply_straight_line_bound(given->positions, StraightLine(lines, unit), unit, 1,
+                                      bound_tolerance(MethodKind::kHeat), below, threads, result);
 }
 
 }  // namespace geotherm

@@ -47,8 +47,8 @@ struct CellDomain final : Domain {
   std::unique_ptr<const UnitField> unit_field(const HeatField& heat, const PerComponent& t,
                                               const Workspace& work) const override;
   Result<std::vector<NearVertex>> near_field(const SourceAnchors& anchors) const override;
-  void check_straight_lines(const SourceSet& sources, BelowLine below, int threads,
-                            DistanceResult& result) const override;
+  void apply_straight_line_bound(const SourceSet& sources, BelowLine below, int threads,
+                                 DistanceResult& result) const override;
   Index flip_count() const override { return flipped ? flipped->flips : 0; }
   const RefinementCounts& inserted() const override {
     return flipped ? flipped->inserted : Domain::inserted();

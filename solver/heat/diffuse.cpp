@@ -21,7 +21,7 @@ struct Extremes {
     largest[column] = high > largest[column] ? high : largest[column];
     smallest[column] = low < smallest[column] ? low : smallest[column];
   }
-  /// Those of rows that stand one after the other.
+  /// Takes the entries of rows that stand one after the other.
   void take_rows(const double* u, std::size_t count) {
     const std::size_t columns = largest.size();
     const std::size_t lanes = kLanes / columns * columns;  // whole rows

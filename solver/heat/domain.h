@@ -133,8 +133,8 @@ struct Domain {
   /// Fills in how many distances are below the straight line to the nearest source
   /// (Quality::below_straight_line), and raises them where `below` says so, where the space lies in
   /// R^3 and its lengths are those of lines.
-  virtual void check_straight_lines(const SourceSet& sources, BelowLine below, int threads,
-                                    DistanceResult& result) const = 0;
+  virtual void apply_straight_line_bound(const SourceSet& sources, BelowLine below, int threads,
+                                         DistanceResult& result) const = 0;
 
   /// Flips of its triangles before its operators were made, and what was inserted into them.
   virtual Index flip_count() const { return 0; }

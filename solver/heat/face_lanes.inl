@@ -46,7 +46,7 @@ struct Given {
   Bits careful;  ///< lanes where the fast path does not hold
 };
 
-/// From the differences of u to corner 0, for X of length 1.
+/// The divergence from the differences of u to corner 0, for X of length 1.
 inline Given unit_divergence(const Shape& s, Register u0, Register du1, Register du2) {
   // Relative to the larger difference: squares of u itself underflow half way to the floor.
   const Register size1 = size_of(du1), size2 = size_of(du2);

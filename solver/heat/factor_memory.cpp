@@ -31,15 +31,15 @@ Error too_large(std::string_view backend, double factors, double work, int count
           std::move(hint), std::string(backend)};
 }
 
-bool uses_free_border(BoundaryRule rule) { return rule != BoundaryRule::kDirichlet; }
-bool uses_held_border(BoundaryRule rule) { return rule != BoundaryRule::kNeumann; }
+bool uses_free_boundary(BoundaryRule rule) { return rule != BoundaryRule::kDirichlet; }
+bool uses_held_boundary(BoundaryRule rule) { return rule != BoundaryRule::kNeumann; }
 
 }  // namespace
 
 FactorPlan plan_factors(BoundaryRule rule, std::optional<BoundaryRule> kept, bool poisson_kept,
                         int threads) {
   int heat = 0, missing = 0;
-  for (const auto uses : {uses_free_border, uses_held_border}) {
+  for (const auto uses : {uses_free_boundary, uses_held_boundary}) {
     if (!uses(rule)) continue;
     ++heat;
     missing += !kept || !uses(*kept);

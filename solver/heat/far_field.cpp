@@ -121,8 +121,9 @@ double FarField::end_of_level(double first, double largest) const {
   return end < largest ? end : floor_ * largest;
 }
 
-/// Those of these entries, or of all, reached and free, that lie below the end of the level of
-/// their component: sizes of components differ, and with them the heat in them.
+/// The entries among `candidates` (or among all) that are reached and free and lie below the end of
+/// the level of their component. Each component has an end of its own, since the heat in it depends
+/// on its size.
 FarField::Far FarField::below(const Range& range, const Rows& candidates) const {
   const auto columns = std::ssize(columns_);
   Block least(components_.count, columns);

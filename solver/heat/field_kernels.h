@@ -70,7 +70,7 @@ inline T front_length(T extent, T size, T root_t, T inverse_root_t) {
   return ((extent > kResolved * root_t) | (length > one)) ? one : length;
 }
 
-/// The same on a face, by its layout and the direction of the gradient.
+/// front_length() on a face, by its layout and the direction of the gradient.
 template <class T>
 inline T field_length(T base, T x, T height, T nx, T ny, T size, T root_t, T inverse_root_t) {
   const T a = base * nx;
@@ -96,11 +96,11 @@ void mark_small(const double* u, std::int64_t rows, int columns, const double* f
 void add_unit_divergence(const FieldPass& pass, int group,
                          InstructionSet set = best_instruction_set());
 
-/// The same over tets.
+/// Adds to b the integrated divergence of X over the tets of the pass.
 void add_tet_divergence(const TetPass& pass, int group,
                         InstructionSet set = best_instruction_set());
 
-/// What these call, of one instruction set.
+/// The functions of one instruction set that the functions above call.
 struct FieldKernels {
   void (*add_unit_divergence[5])(const FieldPass& pass);  ///< by the binary logarithm of the group
   void (*add_tet_divergence[5])(const TetPass& pass);     ///< likewise

@@ -20,7 +20,7 @@ namespace {
 #include "solver/heat/small_values.inl"
 #include "solver/heat/tet_lanes.inl"
 
-/// What the careful way gives.
+/// The divergence on a face by the slow way, which is right for small heat, too.
 std::array<double, 3> divergence_of(const FieldPass& pass, Index f, int column) {
   const auto x = pass.careful(pass.context, f, column);
   return divergence(pass.mesh->layout[f], x[0], x[1]);

@@ -193,8 +193,8 @@ std::unique_ptr<const UnitField> GridDomain::unit_field(const HeatField& heat,
   return std::make_unique<const GridField>(*this, heat, t, work);
 }
 
-void GridDomain::check_straight_lines(const SourceSet& sources, BelowLine below, int threads,
-                                      DistanceResult& result) const {
+void GridDomain::apply_straight_line_bound(const SourceSet& sources, BelowLine below, int threads,
+                                           DistanceResult& result) const {
   if (!lattice->is_uniform()) {  // travel time is no length
     result.quality.reached_vertices = count_reached(result.distances);
     return;
@@ -217,8 +217,8 @@ void GridDomain::check_straight_lines(const SourceSet& sources, BelowLine below,
   }
   std::vector<Vec3> positions(static_cast<std::size_t>(input_vertices));
   for (Index v = 0; v < input_vertices; ++v) positions[v] = place_of(v);
-  geotherm::check_straight_lines(positions, StraightLine(lines, unit), unit, 1,
-                                 bound_tolerance(MethodKind::kHeat), below, threads, result);
+  geotherm::apply_straight_line_bound(positions, StraightLine(lines, unit), unit, 1,
+                                      bound_tolerance(MethodKind::kHeat), below, threads, result);
 }
 
 }  // namespace geotherm

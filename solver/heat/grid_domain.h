@@ -26,8 +26,8 @@ struct GridDomain final : Domain {
   Result<SourceAnchors> place(const SourceSet& sources) const override;
   std::unique_ptr<const UnitField> unit_field(const HeatField& heat, const PerComponent& t,
                                               const Workspace& work) const override;
-  void check_straight_lines(const SourceSet& sources, BelowLine below, int threads,
-                            DistanceResult& result) const override;
+  void apply_straight_line_bound(const SourceSet& sources, BelowLine below, int threads,
+                                 DistanceResult& result) const override;
 };
 
 /// What makes the domain of a grid. Errors: those of check_grid().

@@ -29,13 +29,13 @@ struct QueryPipeline {
   HelperPool& helpers;
 };
 
-/// Solves every source set, in blocks of up to sixteen that threads share out: a block streams each
-/// factor once. Where there are fewer blocks than threads, the steps of each share theirs. No more
-/// threads work than there is work for, few faces have one. The cut
-/// into blocks does not depend on the number of threads, nor do the results.
-/// `progress` is called by one thread at a time, with shares that do not fall.
-/// A query that makes a factor of its own is held against the memory limit before; threads that
-/// would have one more each are fewer then. Throws std::bad_alloc.
+/// Solves every source set, in blocks of up to kSetsInBlock that threads share out: a block streams
+/// each factor once. Where there are fewer blocks than threads, the steps of each share theirs. No
+/// more threads work than there is work for, few faces have one. The cut into blocks does not
+/// depend on the number of threads, nor do the results. `progress` is called by one thread at a
+/// time, with shares that do not fall. A query that makes a factor of its own is held against the
+/// memory limit before; threads that would have one more each are fewer then. Throws
+/// std::bad_alloc.
 Attempt<std::vector<DistanceResult>> run_queries(const QueryPipeline& pipeline,
                                                  std::span<const SourceSet> sets,
                                                  const QueryOptions& query,

@@ -12,9 +12,8 @@
 #include "solver/heat/factor_memory.h"
 
 namespace geotherm {
-namespace {
 
-double unit_time(double unit, const ComponentSize& size, const TimeStep& step) {
+double diffusion_time(const ComponentSize& size, double unit, const TimeStep& step) {
   switch (step.rule) {
     case TimeRule::kMeanEdge:
       return step.factor * size.grading * size.mean_edge * size.mean_edge;
@@ -26,8 +25,6 @@ double unit_time(double unit, const ComponentSize& size, const TimeStep& step) {
   return step.absolute / unit / unit;
 }
 
-}  // namespace
-
 Result<DiffusionTimes> diffusion_times(std::span<const ComponentSize> components, double unit,
                                        const TimeStep& step) {
   std::vector<double> t, relative;
@@ -35,7 +32,7 @@ Result<DiffusionTimes> diffusion_times(std::span<const ComponentSize> components
   for (std::size_t c = 0; c < components.size(); ++c) {
     const ComponentSize& size = components[c];
     if (size.cells > components[largest].cells) largest = c;
-    t.push_back(unit_time(unit, size, step));
+    t.push_back(diffusion_time(size, unit, step));
     relative.push_back(t.back() / size.mean_edge / size.mean_edge);
     const auto usable = [](double each) { return each > 0 && std::isfinite(each); };
     if (usable(t.back()) && usable(relative.back())) continue;
@@ -133,15 +130,15 @@ Result<std::shared_ptr<const HeatStep>> HeatStep::build(std::shared_ptr<const Do
 std::vector<Index> HeatStep::boundary_without(const SourceAnchors* anchors) const {
   std::vector<Index> sources;
   if (anchors != nullptr) sources = anchors->rows();
-  std::vector<Index> border;
+  std::vector<Index> boundary;
   for (Index row = 0; row < domain_->size(); ++row) {
     if (!domain_->on_boundary[row]) continue;
-    if (!std::binary_search(sources.begin(), sources.end(), row)) border.push_back(row);
+    if (!std::binary_search(sources.begin(), sources.end(), row)) boundary.push_back(row);
   }
-  return border;
+  return boundary;
 }
 
-std::vector<SourceAnchors::Anchor> HeatStep::on_border(const SourceAnchors& anchors) const {
+std::vector<SourceAnchors::Anchor> HeatStep::on_boundary(const SourceAnchors& anchors) const {
   std::vector<SourceAnchors::Anchor> out;
   std::ranges::copy_if(anchors.anchors, std::back_inserter(out),
                        [this](const auto& a) { return domain_->on_boundary[a.row] != 0; });
@@ -150,7 +147,7 @@ std::vector<SourceAnchors::Anchor> HeatStep::on_border(const SourceAnchors& anch
 
 bool HeatStep::needs_own_system(const SourceAnchors& anchors, HeatMode mode) const {
   if (boundary_ != BoundaryRule::kNeumann) {
-    const std::size_t freed = on_border(anchors).size();
+    const std::size_t freed = on_boundary(anchors).size();
     if (freed > kMaxFreedRows || (freed > 0 && (iterative_ || mode == HeatMode::kHold))) {
       return true;
     }
@@ -180,13 +177,13 @@ Result<std::shared_ptr<const LinearSystem>> HeatStep::own_system(bool dirichlet,
   return (*built)->refined(refines());
 }
 
-/// Sources on a border that is held at 0 have no heat unless their own rows are free. The factor
-/// with the whole border held gives the solutions with u = 1 on one of these rows each, and that of
-/// the heat of all other rows; the values that fulfil the equations of the freed rows go into
+/// Sources on a boundary that is held at 0 have no heat unless their own rows are free. The factor
+/// with the whole boundary held gives the solutions with u = 1 on one of these rows each, and that
+/// of the heat of all other rows; the values that fulfil the equations of the freed rows go into
 /// `b`, where the held rows have their values.
 Result<void> HeatStep::free_by_schur(const SourceAnchors& anchors, Eigen::Index column,
                                      const Workspace& work, Block& b) const {
-  const auto freed = on_border(anchors);
+  const auto freed = on_boundary(anchors);
   const auto count = static_cast<Eigen::Index>(freed.size());
   Block u = work.take_zero(b.rows(), count + 1);
   u.col(count) = b.col(column);
@@ -269,9 +266,9 @@ Result<HeatStep::Answer> HeatStep::solve_rule(bool dirichlet,
     }
   }
   std::shared_ptr<const LinearSystem> system = dirichlet ? dirichlet_ : neumann_;
-  const bool of_border = dirichlet && !on_border(anchors.front()).empty();
+  const bool of_boundary = dirichlet && !on_boundary(anchors.front()).empty();
   const bool own =
-      needs_own_system(anchors.front(), mode) && (of_border || mode == HeatMode::kHold);
+      needs_own_system(anchors.front(), mode) && (of_boundary || mode == HeatMode::kHold);
   if (own) {
     if (!report(progress, "solve", 0.0)) return cancelled_error();
     auto built = own_system(dirichlet, anchors.front(), mode, work.threads, b);
@@ -281,7 +278,7 @@ Result<HeatStep::Answer> HeatStep::solve_rule(bool dirichlet,
     if (const auto held = hold_by_schur(*system, anchors, work, b); !held) return held.error();
   } else if (dirichlet) {
     for (std::size_t c = 0; c < anchors.size(); ++c) {
-      if (on_border(anchors[c]).empty()) continue;
+      if (on_boundary(anchors[c]).empty()) continue;
       const auto freed = free_by_schur(anchors[c], static_cast<Eigen::Index>(c), work, b);
       if (!freed) return freed.error();
     }
@@ -306,10 +303,10 @@ Result<HeatStep::Answer> HeatStep::solve_rule(bool dirichlet,
     for (double& factor : factors) factor = 1 / factor;
     scale_rows(components, factors, answer.field.u);
   }
-  if (of_border && boundary_ == BoundaryRule::kDirichlet) {
+  if (of_boundary && boundary_ == BoundaryRule::kDirichlet) {
     answer.warnings.emplace_back().message =
-        "sources on the border are left free under the Dirichlet rule; the rest of the border is "
-        "held at 0";
+        "sources on the boundary are left free under the Dirichlet rule; the rest of the boundary "
+        "is held at 0";
   }
   return answer;
 }

@@ -24,6 +24,9 @@ struct DiffusionTimes {
   bool operator==(const DiffusionTimes&) const = default;
 };
 
+/// The time of one component, in squares of `unit`, in which its size is.
+double diffusion_time(const ComponentSize& size, double unit, const TimeStep& step);
+
 /// `unit`: Domain::unit, in which sizes are. Precondition: the step's factor, or its absolute time,
 /// is positive and finite. Errors:
 /// kBadInput (a time that is 0 or not finite in squares of the mean edge).
@@ -43,7 +46,7 @@ inline constexpr std::size_t kMaxFreedRows = 15;
 /// The heat step under a boundary rule: (A + t L) u = u0 with the heat modes of options.h.
 class HeatStep {
  public:
-  /// What diffuse() gives.
+  /// The result of diffuse().
   struct Answer {
     HeatField field;
     std::vector<double> residual;  ///< |M u - b| / |b| of each column; empty unless asked for
@@ -78,7 +81,7 @@ class HeatStep {
  private:
   HeatStep() = default;
   std::vector<Index> boundary_without(const SourceAnchors* anchors) const;
-  std::vector<SourceAnchors::Anchor> on_border(const SourceAnchors& anchors) const;
+  std::vector<SourceAnchors::Anchor> on_boundary(const SourceAnchors& anchors) const;
   Result<Answer> solve_rule(bool dirichlet, std::span<const SourceAnchors> anchors, HeatMode mode,
                             bool residuals, const Workspace& work, const Progress& progress) const;
   /// The system of this rule for one source set, and its right side with held values in place.

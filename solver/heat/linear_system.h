@@ -114,7 +114,7 @@ class LinearSystem {
   /// The same with the operator as it stands: held rows are the identity's, and nothing is moved.
   Result<SolveReport> invert(Block& x, std::span<const Index> support, const Workspace& work,
                              const Progress& progress = {}) const;
-  /// The same where only rows with a flag in `wanted` (n) are of use.
+  /// invert() where only rows with a flag in `wanted` (n) are of use.
   Result<SolveReport> invert_where(Block& x, std::span<const Index> support,
                                    std::span<const char> wanted, const Workspace& work,
                                    const Progress& progress = {}) const;

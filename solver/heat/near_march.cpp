@@ -19,7 +19,8 @@ constexpr double kNearOfSource = 200;
 /// And at most this share of all: on coarse meshes, too, most of the answer is heat's, so that
 /// errors fall as meshes get finer.
 constexpr double kNearShare = 0.07;
-/// Of more sources each has a small neighbourhood, and all of them cost as much as heat.
+/// The march is made for at most so many sources: of more, each would have a small neighbourhood,
+/// and all together would cost as much as the heat method.
 constexpr std::size_t kMaxMarchSources = 64;
 
 /// A disc of so many vertices of an even mesh is guessed this much larger.

@@ -183,7 +183,7 @@ class NearPolygons {
     }
   }
 
-  /// With the sources that other faces have on their sides.
+  /// The triangles of a face, split at the sources that other faces have on their sides.
   FaceTriangles triangles_of(Index given, std::span<const Index> rows) {
     FaceTriangles out = own_triangles_of(given, rows);
     for (const SourceOnSide& source : on_sides_) out.split(source);

@@ -12,17 +12,18 @@
 namespace geotherm {
 namespace {
 
-/// How far from a source, in mean widths of the cells.
+/// How far from a source the near field reaches, in mean widths of the cells.
 constexpr double kTetReach = 3;
 /// With more sources each has less of the volume to itself, and all of them cost as much as heat.
 constexpr std::size_t kMaxNearSources = 64;
 
-/// What sees the sources of one set.
+/// The vertices from which the sources of one set are seen along straight lines.
 class NearTets {
  public:
   explicit NearTets(const CellDomain& domain) : domain_(domain), mesh_(*domain.mesh) {}
 
-  /// From a place that these rows see: a vertex itself, or the corners of the tet that it is in.
+  /// Adds the vertices that a source is seen from. `rows` see it: the vertex that it is, or the
+  /// corners of the tet that it lies in.
   void look_from(const Vec3& source, std::span<const Index> rows) {
     using Entry = std::pair<double, Index>;
     std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;

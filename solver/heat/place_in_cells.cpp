@@ -53,7 +53,8 @@ Result<void> check_cell_sources(const CellDomain& domain, const SourceSet& sourc
 
 using Triangle = std::array<std::size_t, 3>;
 
-/// Those that a face of four corners or more was cut into, by places of its corners.
+/// The triangles that a face of four corners or more was cut into, by the places of its corners in
+/// the face.
 std::vector<Triangle> cut_triangles(const CellComplex& given, Index cell) {
   std::vector<Triangle> out;
   if (given.virtual_vertices.empty() || given.corners_of(cell).size() == 3) return out;
@@ -95,7 +96,7 @@ class CornersInSight {
     }
   }
 
-  /// Of each corner; infinite: hidden.
+  /// The distance of each corner from the source; infinite where the corner is hidden from it.
   const std::vector<double>& distances() const { return distances_; }
 
  private:

@@ -8,6 +8,7 @@
 #include <new>
 #include <optional>
 
+#include "geotherm/many.h"
 #include "solver/accuracy/check_heat.h"
 #include "solver/accuracy/distance_bounds.h"
 #include "solver/core/parallel.h"
@@ -17,9 +18,6 @@
 
 namespace geotherm {
 namespace {
-
-/// Source sets solved together: two of the widest registers; the factor is read once for all.
-constexpr std::size_t kSetsAtOnce = 16;
 
 /// What an iterative query has behind it after the heat step and after the Poisson step.
 constexpr double kHeatShare = 0.3;
@@ -31,8 +29,9 @@ struct Group {
 };
 
 /// Cuts the source sets into blocks; a set that changes the matrix is alone in its block. A
-/// column's last bits depend on the width of its block, so that every sixteenth set begins one
-/// whatever went before: sets that come in chunks of a multiple of sixteen get the same blocks.
+/// column's last bits depend on the width of its block, so that each set whose number is a multiple
+/// of kSetsInBlock begins one whatever went before: sets that come in chunks of such a multiple get
+/// the same blocks.
 Result<std::vector<Group>> cut_into_groups(const QueryPipeline& p,
                                            std::span<const SourceSet> sets) {
   std::vector<Group> groups;
@@ -41,7 +40,7 @@ Result<std::vector<Group>> cut_into_groups(const QueryPipeline& p,
     auto placed = p.domain.place(sets[i]);
     if (!placed) return placed.error();
     const bool alone = p.heat.needs_own_system(*placed, p.options.heat);
-    if (!open || alone || i % kSetsAtOnce == 0) groups.push_back({i, {}});
+    if (!open || alone || i % kSetsInBlock == 0) groups.push_back({i, {}});
     groups.back().anchors.push_back(std::move(*placed));
     open = !alone;
   }
@@ -108,7 +107,7 @@ Result<int> threads_in_memory(const QueryPipeline& p, const std::vector<Group>& 
 double query_nanoseconds(const QueryPipeline& p, bool quality) {
   constexpr double kEntry = 1;  // the factors are read three times
   constexpr double kIteration = 75, kIterations = 2;
-  constexpr double kFace = 10, kFaceJudged = 70, kNearField = 1e5, kNearMarch = 5e4;
+  constexpr double kFace = 10, kFaceChecked = 70, kNearField = 1e5, kNearMarch = 5e4;
   const double faces = p.domain.input->cell_count();
   const auto entries = static_cast<double>(p.poisson.stats().nonzeros);
   const double solves =
@@ -116,7 +115,7 @@ double query_nanoseconds(const QueryPipeline& p, bool quality) {
   const bool inserted = std::ranges::any_of(
       p.domain.components, [](const ComponentSize& size) { return size.inserted > 0; });
   const double near = inserted ? kNearField : kNearMarch;
-  return solves + near + (kFace + (quality ? kFaceJudged : 0)) * faces;
+  return solves + near + (kFace + (quality ? kFaceChecked : 0)) * faces;
 }
 
 /// Near fields of all sets, where they are used. Errors: those of Domain::near_field().
@@ -151,11 +150,11 @@ Result<void> solve_group(const QueryPipeline& p, std::span<const SourceSet> sets
   Stopwatch watch;
   auto heat = p.heat.diffuse(anchors, p.options.heat, query.quality, work,
                              part_of(progress, 0.0, kHeatShare));
-  const auto with_cure = [&](Error error) {
+  const auto with_hint = [&](Error error) {
     return with_time_hint(std::move(error), extreme_time(p.times, anchors),
                           p.options.time_step.rule);
   };
-  if (!heat) return with_cure(heat.error());
+  if (!heat) return with_hint(heat.error());
   const double diffuse_ms = watch.lap() - heat->residual_ms;
   if (!report(progress, "solve", kHeatShare)) return cancelled_error();
   const auto field = p.domain.unit_field(
@@ -172,12 +171,12 @@ Result<void> solve_group(const QueryPipeline& p, std::span<const SourceSet> sets
   if (!answer) return answer.error();
   const ConstraintMode mode = p.options.constraint.mode;
   const auto normalized = normalize(p.domain, *answer, anchors, *near, mode, work.threads, results);
-  if (!normalized) return with_cure(normalized.error());
+  if (!normalized) return with_hint(normalized.error());
   const BelowLine below = uses_what_is_known(p.options) ? BelowLine::kRaised : BelowLine::kKept;
   for (std::size_t c = 0; c < anchors.size(); ++c) {
     if (!query.quality && below == BelowLine::kKept) break;
     const Quality before = results[c].quality;
-    p.domain.check_straight_lines(sets[c], below, work.threads, results[c]);
+    p.domain.apply_straight_line_bound(sets[c], below, work.threads, results[c]);
     if (!query.quality) results[c].quality = before;  // figures that nobody asked for
   }
   const double poisson_ms = watch.lap();

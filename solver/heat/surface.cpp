@@ -73,18 +73,18 @@ struct UsedVertices {
 /// Which rows lie on the boundary: an edge of the mesh with one face, or such an edge where it was
 /// split.
 std::vector<char> find_boundary(const Surface& surface) {
-  std::vector<char> on_border(surface.vertex_of_row.size(), 0);
+  std::vector<char> on_boundary(surface.vertex_of_row.size(), 0);
   const EdgeTable& edges = surface.kept->edges;
   for (Index e = 0; e < edges.edge_count(); ++e) {
     if (edges.sides(e).size() != 1) continue;
-    on_border[surface.row_of_vertex[edges.low(e)]] = 1;
-    on_border[surface.row_of_vertex[edges.high(e)]] = 1;
+    on_boundary[surface.row_of_vertex[edges.low(e)]] = 1;
+    on_boundary[surface.row_of_vertex[edges.high(e)]] = 1;
   }
   const Index own = surface.mesh->vertex_count();
   for (Index p = 0; p < surface.refinement.points; ++p) {
-    if (surface.refinement.on_border[p]) on_border[surface.row_of_vertex[own + p]] = 1;
+    if (surface.refinement.on_boundary[p]) on_boundary[surface.row_of_vertex[own + p]] = 1;
   }
-  return on_border;
+  return on_boundary;
 }
 
 /// Sizes of the components; of the only one the mean edge is exactly 1.
@@ -266,10 +266,10 @@ Result<std::vector<NearVertex>> Surface::near_field(const SourceAnchors& anchors
   return find_near_field(*this, anchors);
 }
 
-void Surface::check_straight_lines(const SourceSet& sources, BelowLine below, int threads,
-                                   DistanceResult& result) const {
-  geotherm::check_straight_lines(*this, sources, 1, bound_tolerance(MethodKind::kHeat), below,
-                                 threads, result);
+void Surface::apply_straight_line_bound(const SourceSet& sources, BelowLine below, int threads,
+                                        DistanceResult& result) const {
+  geotherm::apply_straight_line_bound(*this, sources, 1, bound_tolerance(MethodKind::kHeat), below,
+                                      threads, result);
 }
 
 }  // namespace geotherm

@@ -44,8 +44,8 @@ struct Surface final : IntrinsicSurface, Domain {
   std::unique_ptr<const UnitField> unit_field(const HeatField& heat, const PerComponent& t,
                                               const Workspace& work) const override;
   Result<std::vector<NearVertex>> near_field(const SourceAnchors& anchors) const override;
-  void check_straight_lines(const SourceSet& sources, BelowLine below, int threads,
-                            DistanceResult& result) const override;
+  void apply_straight_line_bound(const SourceSet& sources, BelowLine below, int threads,
+                                 DistanceResult& result) const override;
   Index flip_count() const override { return flips; }
   const RefinementCounts& inserted() const override { return refinement; }
   const Surface* surface() const override { return this; }

@@ -49,7 +49,7 @@ class FaceField final : public UnitField {
   CellCounts inspect(std::span<const double> phi, Eigen::Index column, const SourceAnchors& anchors,
                      std::span<const char> held_at_zero, int threads,
                      Quality& quality) const override;
-  /// The same of the faces with a flag in `some` alone.
+  /// inspect() of the faces with a flag in `some` alone.
   CellCounts inspect(std::span<const double> phi, const SourceAnchors& anchors,
                      std::span<const char> some, int threads, Quality& quality) const;
 

@@ -25,7 +25,7 @@ std::vector<const Backend*> those_of_the_build() {
   return all;
 }
 
-/// Those of the build, then those that were added.
+/// All backends: first those of the build, then those that AddedBackend has added.
 class Registry {
  public:
   static Registry& instance() {

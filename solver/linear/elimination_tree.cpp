@@ -87,7 +87,7 @@ std::vector<std::array<Index, 2>> edges_to_settle(const Ancestors& tree,
 
 /// Puts new vertices into the lowest node of a neighbour that has one. False where one has none.
 bool place_new(std::span<const std::array<Index, 2>> edges, std::vector<Index>& node) {
-  // Those whose neighbours are new as well wait for these.
+  // A vertex whose neighbours are all new waits until one of them has a node.
   for (bool waits = true; waits;) {
     waits = false;
     std::vector<std::pair<Index, Index>> found;

@@ -19,7 +19,7 @@ struct EliminationTree {
   /// The nodes that a right side with these nonzero rows can reach: all ancestors, ascending.
   /// Cost: the length of the answer, times a logarithm (Gilbert, Peierls 1988, for trees).
   std::vector<Index> path(std::span<const Index> rows) const;
-  /// The same for rows with a flag: for many of them. Cost: O(rows).
+  /// The path of the rows with a flag, for many such rows. Cost: O(rows).
   std::vector<Index> path_of_flags(std::span<const char> rows) const;
 };
 

@@ -13,10 +13,10 @@
 
 namespace {
 
-/// Of all ranks, for meet() alone.
+/// The communicator of all ranks, which meet() alone uses.
 MPI_Comm meeting = MPI_COMM_NULL;
 
-/// Kept until the next problem.
+/// The text as C has it; it stays in memory until the next call on this thread.
 const char* told(std::string text) {
   static thread_local std::string kept;
   kept = std::move(text);

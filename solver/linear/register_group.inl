@@ -96,7 +96,7 @@ class Group {
     for (int i = 0; i < kCount; ++i) out.lane_[i] = reinterpret_cast<const Loose*>(from)[i];
     return out;
   }
-  /// Of narrower numbers, widened.
+  /// Loads numbers of a narrower type and widens them to double.
   template <class T>
   static Group load(const T* from) {
     static_assert(kWidth == kLanes);
@@ -133,7 +133,7 @@ class Group {
   void store(double* to) const {
     for (int i = 0; i < kCount; ++i) reinterpret_cast<Loose*>(to)[i] = lane_[i];
   }
-  /// The same number in every lane.
+  /// A group with this number in every lane.
   static Group all(double value) {
     Group out;
     for (int i = 0; i < kCount; ++i) out.lane_[i] = Lane{} + value;

@@ -13,7 +13,7 @@ namespace geotherm {
 /// matrix.
 class WindowSolver {
  public:
-  /// Of one matrix. Keeps a reference to its rows.
+  /// Makes the solver of one matrix. Keeps a reference to its rows.
   WindowSolver(const SymmetricOperator& matrix, const MatrixRows& rows);
 
   /// Column `column` of M x = b in place, where b is zero but for `support`: rows out of the window

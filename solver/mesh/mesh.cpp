@@ -9,6 +9,7 @@
 
 #include "geotherm/sources.h"
 #include "solver/core/sorting.h"
+#include "solver/core/text.h"
 
 namespace geotherm {
 
@@ -29,9 +30,10 @@ Result<void> check_finite(std::span<const Vec3> positions) {
 Result<TriangleMesh> TriangleMesh::build(std::vector<Vec3> positions, std::vector<Face> faces) {
   constexpr std::size_t kMax = static_cast<std::size_t>(std::numeric_limits<Index>::max()) / 3;
   if (faces.empty()) {
-    return Error{ErrorCode::kBadInput,
-                 "the mesh has no faces (" + std::to_string(positions.size()) + " vertices)",
-                 {"distances need a surface of triangles"}};
+    return Error{
+        ErrorCode::kBadInput,
+        "the mesh has no faces (" + counted_text(positions.size(), "vertex", "vertices") + ")",
+        {"distances need a surface of triangles"}};
   }
   if (positions.size() > kMax || faces.size() > kMax) {
     return Error{ErrorCode::kBadInput,

@@ -123,13 +123,6 @@ int write_all(int file, std::string_view bytes) {
   return 0;
 }
 
-/// A link stays a link: what it points to is replaced.
-std::string target_of(const std::string& path) {
-  std::error_code unresolved;
-  const std::string resolved = fs::weakly_canonical(path, unresolved).string();
-  return unresolved ? path : resolved;
-}
-
 /// Removes what programs that were killed have left of this file: each locks what it writes, and a
 /// lock ends with its owner.
 void remove_abandoned(const std::string& target) {
@@ -153,6 +146,21 @@ void remove_abandoned(const std::string& target) {
 }
 
 }  // namespace
+
+std::string end_of_links(const std::string& path) {
+  constexpr int kMostLinks = 40;
+  std::error_code unresolved;
+  fs::path end = fs::weakly_canonical(path, unresolved);
+  if (unresolved) return path;
+  // Links to what is not there yet stand in it as they are.
+  for (int i = 0; i < kMostLinks && fs::is_symlink(end, unresolved); ++i) {
+    const fs::path next = end.parent_path() / fs::read_symlink(end, unresolved);
+    if (unresolved) break;
+    end = fs::weakly_canonical(next, unresolved);
+    if (unresolved) return path;
+  }
+  return end.string();
+}
 
 /// Never freed: the handler of a signal may be reading the list at any moment.
 struct FileGroup::File {
@@ -264,7 +272,7 @@ Result<GrowingFile> GrowingFile::open(const std::string& path) {
     return GrowingFile(std::move(state));
   }
   if (exists && ::access(path.c_str(), W_OK) != 0) return failure(path, errno);
-  state->target = target_of(path);
+  state->target = end_of_links(path);
   remove_abandoned(state->target);
   const int code =
       state->open_beside(exists ? std::optional(status.st_mode) : std::optional<mode_t>());
@@ -278,7 +286,7 @@ Result<GrowingFile> GrowingFile::open_part(const std::string& path) {
   if (exists && ::access(path.c_str(), W_OK) != 0) return failure(path, errno);
   auto state = std::make_unique<State>();
   state->path = path;
-  state->target = target_of(path);
+  state->target = end_of_links(path);
   const int code =
       state->open_part(exists ? std::optional(status.st_mode) : std::optional<mode_t>());
   if (code == EWOULDBLOCK) {
@@ -331,7 +339,7 @@ bool is_renamed(const std::string& path) {
 std::optional<std::uint64_t> room_for(const std::string& path) {
   std::error_code unknown;
   if (!is_renamed(path)) return {};
-  const fs::path folder = fs::path(target_of(path)).parent_path();
+  const fs::path folder = fs::path(end_of_links(path)).parent_path();
   const fs::space_info space = fs::space(folder.empty() ? "." : folder, unknown);
   if (unknown || space.available == static_cast<std::uintmax_t>(-1)) return {};
   return space.available;

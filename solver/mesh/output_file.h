@@ -49,6 +49,9 @@ class GrowingFile {
   std::unique_ptr<State> state_;
 };
 
+/// Where the links of a path lead, also to a file that is not there yet.
+std::string end_of_links(const std::string& path);
+
 /// Whether this is a file, or none yet, and neither standard output nor a device or a pipe.
 bool is_renamed(const std::string& path);
 

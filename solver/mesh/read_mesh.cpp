@@ -15,7 +15,7 @@
 namespace geotherm {
 namespace {
 
-/// From a file whose bytes a mesh no longer needs once they are parsed.
+/// Reads a file whose bytes are not needed any more once they are parsed.
 template <io::RawMesh (*Read)(std::string_view)>
 io::RawMesh read_whole(const io::InputFile& file) {
   return Read(io::FileBytes(file).bytes());
@@ -76,11 +76,6 @@ Result<MeshFile> mesh_file(const std::string& name, io::RawMesh raw) {
     return Error{ErrorCode::kBadFile, name + ": " + mesh.error().message, mesh.error().hint};
   return MeshFile{*std::move(mesh), polygons, welded, std::move(notes), up_axis};
 }
-
-struct PolygonFile {
-  PolygonMesh mesh;
-  std::vector<std::string> notes;
-};
 
 /// A fan's corners are the first triangle's, then the last one of each that follows.
 Result<PolygonFile> polygon_file(const std::string& name, io::RawMesh raw) {
@@ -171,22 +166,13 @@ Result<MeshFile> read_mesh(const std::string& path, std::string_view format) {
   return input ? read_mesh(*input) : input.error();
 }
 
-Result<MeshFile> read_mesh(int descriptor, std::string_view format, const std::string& name) {
-  const auto input = ModelInput::stream(descriptor, name, format);
-  return input ? read_mesh(*input) : input.error();
+Result<PolygonFile> read_polygons(const ModelInput& input) {
+  return read_file(polygon_file, input.file());
 }
 
-Result<PolygonMesh> read_polygons(const ModelInput& input, std::vector<std::string>* notes) {
-  auto file = read_file(polygon_file, input.file());
-  if (!file) return file.error();
-  if (notes != nullptr) *notes = std::move(file->notes);
-  return std::move(file->mesh);
-}
-
-Result<PolygonMesh> read_polygons(const std::string& path, std::string_view format,
-                                  std::vector<std::string>* notes) {
+Result<PolygonFile> read_polygons(const std::string& path, std::string_view format) {
   const auto input = ModelInput::open(path, format);
-  return input ? read_polygons(*input, notes) : input.error();
+  return input ? read_polygons(*input) : input.error();
 }
 
 Result<TriangleMesh> triangulated(const PolygonMesh& mesh) try {

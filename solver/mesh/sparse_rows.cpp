@@ -176,7 +176,8 @@ class ZipWriter {
     std::uint64_t size, place;
   };
 
-  /// From the version that can read it to the length of the name.
+  /// Appends the fields that both headers of a zip entry share, from the version that can read it
+  /// to the length of its name.
   static void add_common(const Entry& entry, std::string& to) {
     constexpr std::uint16_t kFirstDay = 33;  // 1980-01-01, the first that a zip file knows
     for (const std::uint16_t number :

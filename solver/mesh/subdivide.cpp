@@ -15,7 +15,7 @@
 namespace geotherm {
 namespace {
 
-/// What TriangleMesh can number.
+/// The most faces of which TriangleMesh can number the corners.
 constexpr std::int64_t kMaxSplitFaces = std::numeric_limits<Index>::max() / 3;
 
 struct Arrays {
@@ -62,7 +62,7 @@ void cut_into_four(Arrays& mesh) {
   mesh.faces = std::move(parts);
 }
 
-/// How often at most, and the number of faces then.
+/// How often so many faces can be cut into four, and how many faces there are then.
 std::pair<int, std::int64_t> most_times(std::int64_t faces) {
   int times = 0;
   for (; 4 * faces <= kMaxSplitFaces; faces *= 4) ++times;

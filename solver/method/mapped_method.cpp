@@ -1,13 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "solver/method/mapped_method.h"
 
-#include <cmath>
-#include <limits>
 #include <new>
 #include <utility>
 
 #include "geotherm/mesh.h"
-#include "solver/core/memory.h"
 #include "solver/core/stopwatch.h"
 #include "solver/geometry/clean_faces.h"
 #include "solver/method/reach.h"
@@ -43,45 +40,11 @@ void keep_own_vertices(const TriangleMesh& mesh, std::vector<Value>& values) {
 
 }  // namespace
 
-double heat_peak_bytes(double vertices) {
-  // docs/performance.md, torus of 280k and 4.4M faces, backend native, two threads of a Xeon.
-  constexpr double kSmall = 140e3, kLarge = 2.2e6;
-  constexpr double kBytesOfSmall = 143 * 1048576.0, kBytesOfLarge = 2.62 * 1073741824.0;
-  const double power = std::log(kBytesOfLarge / kBytesOfSmall) / std::log(kLarge / kSmall);
-  return kBytesOfSmall * std::pow(vertices / kSmall, power);
-}
-
-double refined_bytes(std::int64_t faces) { return heat_peak_bytes(static_cast<double>(faces) / 2); }
-
-namespace {
-
-/// Whether what is refined fits into the memory that is free. More faces than can be numbered are
-/// left to subdivide(), which refuses them.
-Result<void> check_room(Index faces, int refine) {
-  const auto free = free_memory();
-  const std::int64_t cut = refined_faces(faces, refine);
-  if (!free || cut > std::numeric_limits<Index>::max()) return {};
-  const auto bytes_free = static_cast<double>(*free);
-  if (refined_bytes(cut) <= bytes_free) return {};
-  const auto megabytes = [](double bytes) { return std::to_string(std::llround(bytes / 1e6)); };
-  int fits = refine - 1;
-  while (fits > 0 && refined_bytes(refined_faces(faces, fits)) > bytes_free) --fits;
-  return Error{ErrorCode::kOutOfMemory,
-               std::to_string(faces) + " faces, each cut into four " + std::to_string(refine) +
-                   " times, are " + std::to_string(cut) + " and take " +
-                   megabytes(refined_bytes(cut)) + " MB or so, and " + megabytes(bytes_free) +
-                   " MB are free",
-               {"set ", SettingHint{"refine", {std::to_string(fits)}}}};
-}
-
-}  // namespace
-
 Result<MeshMapping> MeshMapping::build(std::shared_ptr<const TriangleMesh> mesh, int refine) {
   const Stopwatch watch;
   MeshMapping out;
   out.mesh_ = out.inner_ = std::move(mesh);
   if (refine == 0) return out;
-  if (auto fits = check_room(out.mesh_->face_count(), refine); !fits) return fits.error();
   // Faces that are left out anyway are left out at once: they would be counted in small parts.
   CleanFaces clean = clean_faces(*out.mesh_);
   if (clean.faces.empty()) return out;  // no method can be built, and each says why

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <algorithm>
-#include <cstdint>
 #include <memory>
 #include <vector>
 
@@ -11,26 +9,12 @@
 
 namespace geotherm {
 
-/// How many faces there are when each has been cut into four so often. More than 16 times count as
-/// 16, which makes more faces than can be numbered already.
-inline std::int64_t refined_faces(Index faces, int times) {
-  return std::int64_t{faces} << (2 * std::clamp(times, 0, 16));
-}
-
-/// Memory at the peak of reading a closed surface of so many vertices, setting the heat method up
-/// and one query: the power law through what was measured.
-double heat_peak_bytes(double vertices);
-
-/// The same of a mesh that was refined to so many faces.
-double refined_bytes(std::int64_t faces);
-
 /// What leads from a mesh to the one that is solved on: its faces cut into four (subdivide()), and
 /// vertices that are one (TriangleMesh::same_as()). Immutable.
 class MeshMapping {
  public:
   /// `refine`: how often faces are cut; at 0 the mesh is solved on as it is, and only vertices that
-  /// are one count. Errors: kOutOfMemory, before anything is cut: the memory
-  /// that is free cannot hold it; those of subdivide(). Cost: that, and O(F).
+  /// are one count. Errors: those of subdivide(). Cost: that, and O(F).
   static Result<MeshMapping> build(std::shared_ptr<const TriangleMesh> mesh, int refine);
 
   const TriangleMesh& mesh() const { return *mesh_; }

@@ -14,8 +14,6 @@
 namespace geotherm {
 namespace {
 
-/// Sets that the heat method solves as one block.
-constexpr std::size_t kBlock = 16;
 /// Blocks of a thread in a chunk, at most.
 constexpr std::size_t kMaxBlocks = 2;
 /// Beyond this, more blocks would cost memory for little: a block takes long enough by itself.
@@ -48,7 +46,7 @@ Result<void> stream_answers(const DistanceMethod& method, std::span<const Source
   std::size_t first_waiting = 0;
   std::size_t size = 0;
   for (std::size_t first = 0; first < sets.size(); first += size) {
-    size = std::min(query.quality ? std::min(chunk, kSetsWithQuality) : chunk, sets.size() - first);
+    size = std::min(query.quality ? std::min(chunk, kSetsInBlock) : chunk, sets.size() - first);
     const Progress part = part_of(progress, static_cast<double>(first) / count,
                                   static_cast<double>(first + size) / count);
     Result<void> taken;
@@ -88,12 +86,12 @@ Result<void> stream_answers(const DistanceMethod& method, std::span<const Source
 }
 
 std::size_t good_chunk(Index vertices, int threads, std::optional<std::int64_t> free_bytes) {
-  const std::size_t least = kBlock * static_cast<std::size_t>(thread_count(threads));
+  const std::size_t least = kSetsInBlock * static_cast<std::size_t>(thread_count(threads));
   std::size_t chunk = least * kMaxBlocks;
   while (chunk > least && chunk_bytes(vertices, chunk) > kAmpleBytes) chunk -= least;
   if (!free_bytes) return chunk;
   const std::int64_t most = *free_bytes / 2;
-  while (chunk > kBlock && chunk_bytes(vertices, chunk) > most) chunk -= kBlock;
+  while (chunk > kSetsInBlock && chunk_bytes(vertices, chunk) > most) chunk -= kSetsInBlock;
   return chunk;
 }
 

@@ -168,10 +168,8 @@ class LevelSets {
   std::vector<char> used_;
 };
 
-}  // namespace
-
-std::vector<Isoline> trace_isolines(const TriangleMesh& mesh, std::span<const double> values,
-                                    std::span<const double> levels) {
+std::vector<Isoline> all_isolines(const TriangleMesh& mesh, std::span<const double> values,
+                                  std::span<const double> levels) {
   assert(values.size() == static_cast<std::size_t>(mesh.vertex_count()));
   assert(std::ranges::is_sorted(levels));
   std::vector<Isoline> lines;
@@ -183,10 +181,12 @@ std::vector<Isoline> trace_isolines(const TriangleMesh& mesh, std::span<const do
   return lines;
 }
 
+}  // namespace
+
 Result<std::vector<Isoline>> find_isolines(const TriangleMesh& mesh, std::span<const double> values,
                                            std::span<const double> levels) {
   return within_memory("a level set", mesh, [&]() -> Result<std::vector<Isoline>> {
-    return trace_isolines(mesh, values, levels);
+    return all_isolines(mesh, values, levels);
   });
 }
 

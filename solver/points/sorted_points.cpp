@@ -115,8 +115,8 @@ NeighbourTree::NeighbourTree(const std::vector<Vec3>& points) : tree_(new Tree{p
 NeighbourTree::~NeighbourTree() = default;
 
 int NeighbourTree::nearest(Index point, int count, Index* numbers, double* squares) const {
-  assert(count <= kMost);
-  std::uint32_t found[kMost + 1];
+  assert(count <= kMaxNeighbours);
+  std::uint32_t found[kMaxNeighbours + 1];
   const std::size_t total =
       tree_->index.knnSearch(tree_->points[static_cast<std::size_t>(point)].data(),
                              static_cast<std::size_t>(count) + 1, found, squares);

@@ -26,7 +26,7 @@ SortedPoints sort_points(std::span<const Vec3> positions, int threads);
 /// Finds nearest neighbours: a k-d tree over the sorted points, by nanoflann.
 class NeighbourTree {
  public:
-  static constexpr int kMost = 100;
+  static constexpr int kMaxNeighbours = 100;
 
   /// Keeps a reference to the points. Cost: O(Q log Q). Throws std::bad_alloc.
   explicit NeighbourTree(const std::vector<Vec3>& points);
@@ -35,8 +35,8 @@ class NeighbourTree {
   NeighbourTree& operator=(const NeighbourTree&) = delete;
 
   /// The `count` points nearest to `point` without itself, fewer where there are no more, in order
-  /// of distance. `numbers` and `squares` (of the distances) have room for kMost + 1. Returns how
-  /// many there are. From any number of threads. Precondition: count <= kMost.
+  /// of distance. `numbers` and `squares` (of the distances) have room for kMaxNeighbours + 1.
+  /// Returns how many there are. From any number of threads. Precondition: count <= kMaxNeighbours.
   int nearest(Index point, int count, Index* numbers, double* squares) const;
 
  private:

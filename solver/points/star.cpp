@@ -36,16 +36,16 @@ class PlaneCell {
 
   /// Keeps what lies at x a + y b <= c; the new side is `owner`'s. Precondition: c > 0.
   void cut(double a, double b, double c, Index owner) {
-    double beyond[kMost];
+    double beyond[kMaxCorners];
     bool any = false;
     for (int i = 0; i < count_; ++i) {
       beyond[i] = corners_[i].x * a + corners_[i].y * b - c;
       any |= beyond[i] > 0;
     }
-    if (!any || count_ + 2 > kMost) return;
-    Corner kept[kMost + 2];
+    if (!any || count_ + 2 > kMaxCorners) return;
+    Corner kept[kMaxCorners + 2];
     int next = 0;
-    for (int i = 0; i < count_ && next + 2 <= kMost; ++i) {
+    for (int i = 0; i < count_ && next + 2 <= kMaxCorners; ++i) {
       const int j = i + 1 < count_ ? i + 1 : 0;
       if (beyond[i] <= 0) kept[next++] = corners_[i];
       if ((beyond[i] <= 0) == (beyond[j] <= 0)) continue;
@@ -74,7 +74,7 @@ class PlaneCell {
   }
 
  private:
-  static constexpr int kMost = NeighbourTree::kMost + 8;
+  static constexpr int kMaxCorners = NeighbourTree::kMaxNeighbours + 8;
 
   struct Corner {
     double x, y;
@@ -85,15 +85,15 @@ class PlaneCell {
 
   int count_;
   double farthest_;
-  Corner corners_[kMost];
+  Corner corners_[kMaxCorners];
 };
 
 }  // namespace
 
 void find_neighbours(const NeighbourTree& tree, std::span<const Vec3> points, Index point,
                      int count, Neighbourhood& out) {
-  Index numbers[NeighbourTree::kMost + 1];
-  double squares[NeighbourTree::kMost + 1];
+  Index numbers[NeighbourTree::kMaxNeighbours + 1];
+  double squares[NeighbourTree::kMaxNeighbours + 1];
   out.point = point;
   out.count = tree.nearest(point, count, numbers, squares);
   out.radius = out.count > 0 ? std::sqrt(squares[out.count - 1]) : 0.0;

@@ -22,7 +22,7 @@ struct Neighbourhood {
   Index point = kNoIndex;
   int count = 0;
   double radius = 0;  ///< distance to the last neighbour, in units of the sorted points
-  Neighbour all[NeighbourTree::kMost];
+  Neighbour all[NeighbourTree::kMaxNeighbours];
 
   std::span<Neighbour> neighbours() { return {all, static_cast<std::size_t>(count)}; }
   std::span<const Neighbour> neighbours() const { return {all, static_cast<std::size_t>(count)}; }

@@ -160,7 +160,7 @@ class SurfaceOfPoints {
     return distance <= std::min(radius_[i], radius_[j]) * (1 + 1e-12);
   }
 
-  /// Those of which i is the first corner that found them.
+  /// Appends the triangles of the star of i that no corner with a smaller number has found.
   void add_faces(Index i, std::vector<Index>& list) const {
     const auto corners = star(i);
     for (std::size_t c = 0; c < corners.size(); c += 2) {
@@ -190,19 +190,23 @@ class SurfaceOfPoints {
 
 Result<void> check_options(const PointOptions& options) {
   constexpr int kFewest = 6;
-  if (options.neighbours >= kFewest && options.neighbours <= NeighbourTree::kMost) return {};
+  if (options.neighbours >= kFewest && options.neighbours <= NeighbourTree::kMaxNeighbours)
+    return {};
   return Error{
       ErrorCode::kBadInput,
       "a point cannot be triangulated with " + std::to_string(options.neighbours) + " neighbours",
-      {"take from " + std::to_string(kFewest) + " to " + std::to_string(NeighbourTree::kMost)}};
+      {"take from " + std::to_string(kFewest) + " to " +
+       std::to_string(NeighbourTree::kMaxNeighbours)}};
 }
 
 Error no_surface(Index points, Index places) {
-  return {ErrorCode::kBadInput,
-          counted_text(static_cast<std::size_t>(points), "point", "points") + " at " +
-              counted_text(static_cast<std::size_t>(places), "place", "places") +
-              " make no surface: there is no triangle among them",
-          {"give at least three points that are not on one line"}};
+  return {
+      ErrorCode::kBadInput,
+      counted_text(static_cast<std::size_t>(points), "point", "points") + " at " +
+          counted_text(static_cast<std::size_t>(places), "place", "places") +
+          " make no surface: no triangle was found among them",
+      {"give at least four points that are not on one line: each takes its triangles from three "
+       "others"}};
 }
 
 /// Pieces of the surface. `used`: for each point whether it is in a face.

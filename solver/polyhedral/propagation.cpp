@@ -139,7 +139,7 @@ Result<void> Propagation::check(const Progress& progress) {
   return {};
 }
 
-/// Whether the vertex had no distance as small before.
+/// Notes a distance of a vertex. True where the vertex had none as small before.
 bool Propagation::reach(Index vertex, double distance, Index group, bool send_anyway) {
   VertexState& state = vertices_[static_cast<std::size_t>(vertex)];
   if (distance >= state.distance) return false;
@@ -153,7 +153,7 @@ bool Propagation::reach(Index vertex, double distance, Index group, bool send_an
   return true;
 }
 
-/// The same by a path whose first piece is the window's line through (x, y).
+/// Reaches a vertex by a path whose first piece is the window's line through (x, y).
 void Propagation::reach_by(const Window& window, Index vertex, double x, double y,
                            double distance) {
   if (!reach(vertex, distance, window.group()) || !starts_) return;
@@ -298,7 +298,7 @@ void Propagation::send_left(const Window& w, bool from_apex) {
   cross(side, child, true);
 }
 
-/// To the side from the second corner to the apex, in its own frame.
+/// Sends the window on to the side from the second corner to the apex, in that side's own frame.
 void Propagation::send_right(const Window& w, bool from_apex) {
   const auto& frame = mesh_.side(w.side);
   const Side side = next_side(w.side);

@@ -11,7 +11,7 @@ constexpr double kFar = std::numeric_limits<double>::infinity();
 /// Below this share of h^2 the values along an edge fall as fast as they can: the wave runs along
 /// the edge, straight lines from its ends give the distances, and a fit would divide by zero.
 constexpr double kAlongEdge = 1e-5;
-/// The same for the square of the wave's component across the edge.
+/// Below this the square of the wave's component across the edge counts as 0 for the same reason.
 constexpr double kGrazing = 1e-7;
 /// Where a fit converges more than this (curvature times h), two fronts meet on the edge, and it is
 /// discarded.
@@ -103,7 +103,7 @@ inline Fit fit_wave(double centre, double half, double left, double middle, doub
   return fit;
 }
 
-/// The same seen from a face whose side runs the other way.
+/// The fit as it is seen from a face whose side runs the other way.
 inline Fit mirrored(const Fit& fit) {
   Fit out = fit;
   out.centre = -fit.centre;

@@ -238,8 +238,8 @@ void WaveFront::seed(const WaveSurface& surface, const SourceSeeds& seeds) {
   ring_.add_seeds(keys_);
 }
 
-/// Of an edge's ends, and of the corner beyond it in its first face: an order of edges that does
-/// not hang on their numbers.
+/// The orders of an edge's two ends and of the corner opposite it in its first face. They order
+/// edges in a way that does not depend on their numbers.
 std::array<WaveOrder, 3> WaveFront::orders_of(const WaveSurface& surface, Index edge) const {
   const SideCode side = tables_.sides[edge][0];
   const WaveFace& face = tables_.faces[face_of_code(side)];

@@ -28,7 +28,7 @@ class WaveFront {
   /// Keeps a reference. `samples`: 1 or 3 on each edge.
   WaveFront(const WaveTables& tables, int samples, InstructionSet set = best_instruction_set());
 
-  /// With the memory of one that is not needed any more.
+  /// A front that takes over the memory of one that is not needed any more.
   WaveFront(const WaveTables& tables, WaveFront&& spare);
 
   enum class Outcome {

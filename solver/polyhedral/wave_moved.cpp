@@ -42,7 +42,7 @@ class FaceCarrier {
     }
   }
 
-  /// By the faces' numbers in the tables.
+  /// A flag for each face that has changed, by the faces' numbers in the tables.
   const std::vector<char>& changed() const { return changed_; }
 
   void run() {
@@ -52,7 +52,8 @@ class FaceCarrier {
   }
 
  private:
-  /// In its corners or its neighbours: most flips are those from before.
+  /// Whether a face has other corners or other neighbours than before; most flips are those from
+  /// before.
   bool differs(Index f) const {
     if (old_.faces[f] != mesh_.faces[f]) return true;
     for (Side side = 3 * f; side < 3 * f + 3; ++side) {

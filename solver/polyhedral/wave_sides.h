@@ -15,7 +15,7 @@ namespace geotherm {
 /// in memory, and waiting for them would be most of the time.
 inline constexpr std::int64_t kFetchedAhead = 16;
 
-/// Of a block of faces, in units of the intrinsic mesh.
+/// The lengths of the sides of a block of faces, in units of the intrinsic mesh.
 struct SideLengths {
   double sum = 0, longest = 0;
 };

@@ -57,7 +57,8 @@ struct WaveTables {
   std::size_t bytes() const;
 };
 
-/// The same with any number of threads. Cost: O(F + V log V).
+/// Builds the tables of a surface; they do not depend on the number of threads. Cost:
+/// O(F + V log V).
 WaveTables build_wave_tables(const WaveSurface& surface, int threads = 1);
 
 /// Whether the tables of one surface can be made from those of another: the same clean faces with

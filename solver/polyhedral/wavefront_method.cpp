@@ -55,28 +55,28 @@ class FrontPool {
   std::vector<std::unique_ptr<WaveFront>> free_;
 };
 
-/// What a method leaves to the next but one on a surface that moves, which the system would else
-/// have to clear page by page.
-struct Leavings {
+/// Memory that a method leaves to the next but one on a surface that moves: fresh memory would have
+/// to be cleared by the system, page by page.
+struct SpareWaves {
   WaveTables tables;
   std::unique_ptr<WaveFront> front;
 };
 
-/// Those of one method, as long as nobody takes them. For several threads.
-class LeavingsPool {
+/// Keeps the spare memory of one method until another takes it. For several threads.
+class SpareWavesPool {
  public:
-  Leavings take() {
+  SpareWaves take() {
     const std::lock_guard lock(mutex_);
     return std::exchange(kept_, {});
   }
-  void give(Leavings leavings) {
+  void give(SpareWaves spare) {
     const std::lock_guard lock(mutex_);
-    std::swap(kept_, leavings);
+    std::swap(kept_, spare);
   }
 
  private:
   std::mutex mutex_;
-  Leavings kept_;
+  SpareWaves kept_;
 };
 
 }  // namespace
@@ -88,13 +88,13 @@ struct WavefrontMethod::State {
   WaveTables tables;
   SetupTiming timing;
   std::unique_ptr<FrontPool> pool;
-  std::shared_ptr<LeavingsPool> leavings;  ///< where the surface has moved
+  std::shared_ptr<SpareWavesPool> spare_waves;  ///< where the surface has moved
 
   State() = default;
   State(const State&) = delete;
   State& operator=(const State&) = delete;
   ~State() {
-    if (leavings) leavings->give({std::move(tables), pool->take_spare(false)});
+    if (spare_waves) spare_waves->give({std::move(tables), pool->take_spare(false)});
   }
 
   MethodKind kind() const {
@@ -111,13 +111,13 @@ struct WavefrontMethod::State {
 
 /// Makes the tables from those of a method with as many samples, whose surface they fit.
 void WavefrontMethod::State::move_from(const State& before, int workers) {
-  const auto shared = before.leavings ? before.leavings : std::make_shared<LeavingsPool>();
-  Leavings spare = shared->take();
+  const auto shared = before.spare_waves ? before.spare_waves : std::make_shared<SpareWavesPool>();
+  SpareWaves spare = shared->take();
   tables =
       moved_wave_tables(before.tables, *before.surface, *surface, workers, std::move(spare.tables));
   pool = std::make_unique<FrontPool>(tables, samples_on_edge());
   if (spare.front) pool->give(std::make_unique<WaveFront>(tables, std::move(*spare.front)));
-  leavings = shared;
+  spare_waves = shared;
 }
 
 Result<DistanceResult> WavefrontMethod::State::solve(const SourceSet& sources,

@@ -25,7 +25,7 @@ Index root_of(std::vector<Index>& parent, Index i) {
   return i;
 }
 
-/// For each corner the first of the fan that it belongs to.
+/// The first corner of the fan that each corner belongs to.
 std::vector<Index> fans(const WaveSurface& surface) {
   std::vector<Index> parent(surface.edges().of_side.size());
   std::iota(parent.begin(), parent.end(), Index{0});

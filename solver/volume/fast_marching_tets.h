@@ -54,7 +54,7 @@ class TetFastMarching {
                              const TetMarchingOptions& options = {},
                              const Progress& progress = {}) const;
 
-  /// As CleanTets::notes().
+  /// What was left out, as CleanTets::notes() says it.
   const std::vector<std::string>& notes() const { return notes_; }
 
  private:

@@ -58,7 +58,7 @@ void weaken_slivers(const std::vector<Tet>& tets, std::span<const double> height
        ", with a height below a fifth of the shortest edge, left without weight"});
 }
 
-/// Of the sphere through the corners.
+/// The radius of the sphere through the corners.
 double circumradius(std::span<const Vec3> positions, const Tet& tet) {
   Eigen::Matrix3d edges;
   for (int k = 0; k < 3; ++k) {

@@ -70,5 +70,45 @@ TEST(Slopes, ThatNoDistanceHasAreAWarningWithTheCure) {
   }
 }
 
+TEST(Slopes, HaveACureThatHelpsWhereTheyAreWrong) {
+  const auto cure = [](const HeatOptions& options, double unit_t, const CellCounts& cells,
+                       const char* names) {
+    DistanceResult result;
+    result.quality.eikonal_error_mean = 0.9;
+    EXPECT_TRUE(assess_heat(options, unit_t, cells, result, 0, names));
+    return hint_text(result.warnings.back().hint);
+  };
+  EXPECT_EQ(cure({}, 1, {}, "faces"), "refine the mesh");
+  EXPECT_EQ(cure({}, 1e-300, {}, "faces"), "raise time-factor");
+  EXPECT_EQ(cure({}, 1, {}, "cells"), "use method wavefront") << "a grid cannot be refined";
+  HeatOptions held;
+  held.boundary = BoundaryRule::kDirichlet;
+  EXPECT_TRUE(says(cure(held, 0.25, {100, 99}, "cells"), "boundary neumann"));
+}
+
+/// Distances that were raised to the straight line may be right.
+TEST(BelowTheLine, WhatWasRaisedIsNotSaidToBeWrong) {
+  DistanceResult raised;
+  raised.quality.reached_vertices = 4;
+  raised.quality.clamped_vertices = 1;
+  raised.quality.below_straight_line = 1;
+  raised.quality.most_below_straight_line = 0.4;
+  raised.quality.lines_checked = true;
+  DistanceResult kept = raised;
+  ASSERT_TRUE(assess_heat({}, 1, {}, raised));
+  ASSERT_EQ(raised.warnings.size(), 2U);
+  for (const Warning& warning : raised.warnings) {
+    EXPECT_FALSE(says(sentence(warning), "it is wrong")) << sentence(warning);
+    EXPECT_FALSE(says(sentence(warning), "set to 0")) << sentence(warning);
+    EXPECT_TRUE(says(sentence(warning), "straight line")) << sentence(warning);
+  }
+  EXPECT_TRUE(says(raised.warnings[1].message, "raised"));
+  HeatOptions classic;  // does not raise
+  classic.variant = Variant::kClassic;
+  ASSERT_TRUE(assess_heat(classic, 1, {}, kept));
+  EXPECT_TRUE(says(kept.warnings[0].message, "set to 0"));
+  EXPECT_TRUE(says(kept.warnings[1].message, "it is wrong around there"));
+}
+
 }  // namespace
 }  // namespace geotherm::test

@@ -84,7 +84,7 @@ TEST(DiagnoseTest, TheCheapestGoodSettingEndsTheSearch) {
   ASSERT_TRUE(found && found->remedy);
   EXPECT_EQ(hint_text({setting_of(*found->remedy)}), "time-factor 1");
   EXPECT_EQ(found->tried.size(), 1U);
-  EXPECT_LT(found->remedy->mean_relative, 1e-6) << "the cure is what the reference was made with";
+  EXPECT_LT(found->remedy->mean_relative, 1e-6) << "the remedy is what the reference was made with";
 }
 
 /// Distances of which all but one are those of the heat method with its usual options, and that one

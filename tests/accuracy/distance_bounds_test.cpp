@@ -107,8 +107,8 @@ TEST(ClampedVertices, ReachAsFarAsTheFarthestFromTheNearestSource) {
   const SourceSet corners = SourceSet::of_vertices({0, (kCells + 1) * (kCells + 1) - 1});
   const auto reach = [&](Index clamped) {
     result.quality.clamped_vertices = clamped;
-    check_straight_lines((*surface)->base, corners, 1, bound_tolerance(MethodKind::kHeat),
-                         BelowLine::kKept, 1, result);
+    apply_straight_line_bound((*surface)->base, corners, 1, bound_tolerance(MethodKind::kHeat),
+                              BelowLine::kKept, 1, result);
     return result.quality.clamped_reach;
   };
   EXPECT_NEAR(reach(3), 5, 1e-12);

@@ -108,11 +108,11 @@ TEST_P(EveryField, HasAValueForEachElementOfItsPlaceAndANameThatReadsBack) {
   if (field.type == DataField::Type::kUint8) {
     for (const double value : field.values) EXPECT_TRUE(value >= 0 && value <= 3) << value;
   }
-  EXPECT_EQ(*parse_quality_field(to_text(GetParam())), GetParam());
+  EXPECT_EQ(*parse<QualityField>(to_text(GetParam())), GetParam());
   EXPECT_EQ(field.name.find('-'), std::string::npos);
 }
 
-INSTANTIATE_TEST_SUITE_P(Names, EveryField, testing::ValuesIn(all_quality_fields()),
+INSTANTIATE_TEST_SUITE_P(Names, EveryField, testing::ValuesIn(all_values<QualityField>()),
                          [](const auto& test) { return described(test.param).name; });
 
 }  // namespace

@@ -127,9 +127,9 @@ for run in "plane.ply 7 -m 0.001" "twice.ply 7" "three.ply 7"; do
 done
 # Where one process would insert vertices: as many needs as it counts.
 "$program" solve obtuse.ply -s 0 --no-check >one 2>&1
-needs=$(grep -o '[0-9,]* obtuse border edges' one | tr -dc '0-9')
+needs=$(grep -o '[0-9,]* obtuse boundary edges' one | tr -dc '0-9')
 shared 3 obtuse.ply 0
-warns "^geotherm: warning: $needs edges of the border .*one process would insert vertices"
+warns "^geotherm: warning: $needs edges of the boundary .*one process would insert vertices"
 
 solve=(--backend petsc -o r.npy)
 # Seen by one rank alone: the last face, a file that is cut short, a disk that is full.

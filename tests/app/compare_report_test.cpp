@@ -44,10 +44,21 @@ TEST(CompareReports, HaveNullInJsonWhereThereIsNoFigure) {
   EXPECT_EQ(json["machine"]["cores"], 8);
 }
 
+TEST(CompareReports, SayOfHowManyQueriesTheErrorsAre) {
+  auto some = rows();
+  EXPECT_EQ(compare_table(kMachine, some).find("errors are of"), std::string::npos);
+  some[0].mean_error = some[0].max_error = 0.01;
+  some[0].error_queries = 3;
+  const std::string said = "errors are of the first 3 queries, against exact";
+  EXPECT_NE(compare_table(kMachine, some).find(said), std::string::npos);
+  EXPECT_NE(compare_html(kMachine, some).find(said), std::string::npos);
+  EXPECT_EQ(nlohmann::json::parse(compare_json(kMachine, some))["rows"][0]["error_queries"], 3);
+}
+
 TEST(CompareReports, QuoteTextInCsv) {
   const std::string csv = compare_csv(rows());
   EXPECT_NE(csv.find("\n\"a\"\"b<c>,d\",10,20,\"first\",1.5,0.25,"), std::string::npos) << csv;
-  EXPECT_NE(csv.find("\"numerical failure\",\"pivot \"\"3\"\" is <= 0, give up\"\n"),
+  EXPECT_NE(csv.find("\"numerical failure\",\"pivot \"\"3\"\" is <= 0, give up\","),
             std::string::npos)
       << csv;
 }
@@ -60,7 +71,7 @@ TEST(CompareReports, HoldNoFormulasInCsv) {
     some[1].mean_difference = -0.5;
     const std::string csv = compare_csv(some);
     EXPECT_NE(csv.find("\n\"'" + some[0].model + "\",10,"), std::string::npos) << csv;
-    EXPECT_NE(csv.find(",\"'" + std::string(1, first) + "1+1?=2\"\n"), std::string::npos) << csv;
+    EXPECT_NE(csv.find(",\"'" + std::string(1, first) + "1+1?=2\","), std::string::npos) << csv;
     EXPECT_NE(csv.find(",-0.5,"), std::string::npos) << "numbers stay numbers: " << csv;
   }
 }

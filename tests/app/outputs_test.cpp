@@ -6,6 +6,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <filesystem>
 #include <functional>
 
 #include "solver/mesh/output_file.h"
@@ -109,6 +110,57 @@ TEST(OutputFiles, AreFoundToBeTheModelUnderAnotherName) {
   EXPECT_EQ(refused.error().code, ErrorCode::kBadInput);
   EXPECT_NE(sentence(refused.error()).find("is the model itself; give"), std::string::npos);
   EXPECT_TRUE(outputs.expect(folder.path("other.ply"), "-o"));
+}
+
+TEST(OutputFiles, AreFoundToBeInputsHoweverThoseAreNamed) {
+  const TemporaryDirectory folder;
+  const std::string mask = folder.write("mask.ply", "x"), frame = folder.write("f_0012.obj", "x");
+  folder.write("f_12.obj", "x");
+  ASSERT_EQ(::link(mask.c_str(), folder.path("hard.ply").c_str()), 0);
+  const auto refuses = [&](const std::string& input, const std::string& output) {
+    Outputs outputs;
+    outputs.protect(input, "the input");
+    return !outputs.expect(folder.path(output), "-o");
+  };
+  for (const std::string& input :
+       {mask, "keep:" + mask, mask + ":keep", "faces:" + mask + ":kept"}) {
+    EXPECT_TRUE(refuses(input, "mask.ply")) << input;
+    EXPECT_TRUE(refuses(input, "hard.ply")) << input;
+    EXPECT_FALSE(refuses(input, "f_12.obj")) << input;
+  }
+  EXPECT_TRUE(refuses(folder.path("f_%04d.obj"), "f_0012.obj"));
+  EXPECT_FALSE(refuses(folder.path("f_%04d.obj"), "f_12.obj")) << "no frame: too few digits";
+  EXPECT_FALSE(refuses(folder.path("f_%04d.obj"), "f_0013.obj")) << "there is none";
+}
+
+TEST(OutputFiles, OfOneOptionAreNotThoseOfAnother) {
+  const TemporaryDirectory folder;
+  const std::string path = folder.write("a.csv", "x");
+  app::remember_files({{app::files_named(path).front(), "the file of --pairs", "--pairs"}});
+  Outputs outputs;
+  const auto refused = outputs.expect(path, "--output");
+  EXPECT_TRUE(Outputs().expect(path, "save session")) << "not of the command line";
+  EXPECT_TRUE(Outputs().expect(path, "--pairs")) << "its own";
+  app::remember_files({});
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().code, ErrorCode::kBadInput);
+  EXPECT_NE(refused.error().message.find("a.csv is the file of --pairs"), std::string::npos);
+  EXPECT_TRUE(outputs.expect(path, "--output"));
+}
+
+TEST(OutputFiles, BehindALinkAreWrittenWhereItLeads) {
+  const TemporaryDirectory folder;
+  const std::string link = folder.path("link"), target = folder.path("target");
+  ASSERT_EQ(::symlink("target", link.c_str()), 0);  // nothing is there yet
+  Outputs outputs;
+  ASSERT_TRUE(outputs.expect(link, "-o"));
+  std::string unused;
+  ASSERT_TRUE(outputs.write_text(link, "x", unused));
+  EXPECT_EQ(bytes_of(target), "x");
+  struct stat found {};
+  ASSERT_EQ(::lstat(link.c_str(), &found), 0);
+  EXPECT_TRUE(S_ISLNK(found.st_mode));
+  EXPECT_EQ(outputs.made(), std::vector<std::string>{std::filesystem::canonical(target).string()});
 }
 
 }  // namespace

@@ -221,6 +221,10 @@ TEST(PictureLegend, SaysHowManyRegionsThereAre) {
   ASSERT_EQ(legend.keys.size(), 1U);
   EXPECT_EQ(legend.keys[0].label, "nearest source (3)");
   EXPECT_EQ(legend.keys[0].patches.size(), 3U);
+  data.unreached = true;
+  const auto keys = app::legend_of(data, settings, scale).keys;
+  ASSERT_EQ(keys.size(), 2U) << "what is grey is said";
+  EXPECT_EQ(keys[1].label, "not reached");
 }
 
 TEST(PictureLegend, NamesEachLineOnce) {

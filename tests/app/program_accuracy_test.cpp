@@ -76,7 +76,7 @@ TEST_F(ProgramAccuracy, SaysWhatWasInsertedAndWhy) {
   EXPECT_GT(refinement["border_splits"], 0);
   EXPECT_GE(refinement["points"], refinement["border_splits"]);
   EXPECT_TRUE(refinement["complete"]);
-  const std::string obtuse = refinement["obtuse_border_edges"].dump() + " obtuse border edges";
+  const std::string obtuse = refinement["obtuse_border_edges"].dump() + " obtuse boundary edges";
   EXPECT_NE(run({"info", "points.ply"}).out.find(obtuse), std::string::npos) << obtuse;
   EXPECT_NE(run({"solve", "points.ply", "-s", "5"}).out.find(obtuse), std::string::npos);
   const Json info = json({"info", "points.ply", "--json", "-"})["model"];

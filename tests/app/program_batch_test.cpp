@@ -62,6 +62,31 @@ TEST_F(BatchProgram, FoldersOfAPatternBecomeFoldersOfTheOutput) {
                  "would both write a.npy");
 }
 
+TEST_F(BatchProgram, AWrongCommandLineIsRefusedBeforeAnyModel) {
+  const std::vector<std::pair<std::vector<std::string>, std::string>> wrong = {
+      {{"--symmetric"}, "--symmetric is about --pairs; leave it out\n"},
+      {{"--float32"}, "--dtype and --float32 are about --each"},
+      {{"--each", "--pairs"}, "--each and --pairs were both given"},
+      {{"--each", "--dtype", "int8"}, "--dtype: "},
+      {{"--output-format", "obj"}, "--output-format: FILE.obj: .obj holds no value per vertex"},
+      {{"--output-format", "npz"}, "--output-format: FILE.npz: unknown extension"},
+      {{"--output-format", "json"}, "--output-format: FILE.json: unknown extension"},
+      {{"--each", "--output-format", "csv"}, "--output-format: FILE.csv: --each writes"},
+      {{"--pairs", "--output-format", "ply"}, "--output-format: FILE.ply: --pairs writes"},
+      {{"--on-poor", "fail", "--no-check"}, "--on-poor fail needs the check"},
+  };
+  for (const auto& [words, what] : wrong) {
+    std::vector<std::string> command = {"batch", "shapes/*.*", "-s", "0", "--out-dir", "out"};
+    command.insert(command.end(), words.begin(), words.end());
+    const ProgramRun result = run_program(folder.path("."), command);
+    EXPECT_EQ(result.code, 2) << what;
+    EXPECT_NE(result.err.find(what), std::string::npos) << result.err;
+    EXPECT_FALSE(fs::exists(folder.path("out"))) << what;
+  }
+  expect_refused({"batch", "shapes", "-s", "0", "--out-dir", "out"},
+                 "shapes: this is a folder; give files, or a pattern in quotes");
+}
+
 TEST_F(BatchProgram, AModelThatFailsIsALineAndStopsNoOther) {
   std::ofstream(folder.path("shapes/c.ply")) << "ply\nnothing\n";
   const ProgramRun result = run_program(

@@ -2,13 +2,16 @@
 // The commands logmap, trace, transport and extend.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <string>
 #include <vector>
 
+#include "geotherm/io.h"
 #include "tests/app/npy_file.h"
 #include "tests/app/program_fixture.h"
+#include "tests/support/shapes.h"
 
 namespace geotherm::test {
 namespace {
@@ -190,13 +193,39 @@ TEST_F(Program, CentreOfTheCornersIsTheMiddle) {
   EXPECT_NE(table.out.find("mean"), std::string::npos) << table.out;
 }
 
+TEST_F(Program, OptionsOfPicturesAreSaidToBeUnusedWhereThereIsNone) {
+  folder.write("square.obj", kFlatSquare);
+  const std::vector<std::vector<std::string>> commands = {
+      {"isolines", "square.obj", "-s", "0", "--count", "3", "-o", "a.csv"},
+      {"path", "square.obj", "--from", "0", "--to", "2", "-o", "a.csv"},
+      {"trace", "square.obj", "--from", "0", "--length", "1", "-o", "a.csv"},
+      {"centre", "square.obj", "--of", "0,2", "-o", "a.csv"},
+      {"logmap", "square.obj", "-s", "0", "-o", "a.csv"},
+      {"signed", "square.obj", "--through", "0", "--through", "2", "-o", "a.csv"},
+      {"transport", "square.obj", "--vector", "0:1:0", "-o", "a.csv"},
+  };
+  for (std::vector<std::string> words : commands) {
+    words.insert(words.end(), {"--title", "x", "--dpi", "90"});
+    const std::string said = run(words).err;
+    EXPECT_NE(said.find("--title"), std::string::npos) << words.front() << ": " << said;
+    EXPECT_NE(said.find("not used: no output is a picture; add -o FILE.svg"), std::string::npos)
+        << words.front() << ": " << said;
+    words.insert(words.end(), {"-o", "a.svg"});
+    EXPECT_EQ(run(words).err.find("no output is a picture"), std::string::npos) << words.front();
+  }
+  const std::string sides = run({"signed", "square.obj", "--through", "0", "--through", "2", "-m",
+                                 "3", "--rule", "sides", "-o", "a.csv"})
+                                .err;
+  EXPECT_NE(sides.find("the rule sides does not use --time-factor"), std::string::npos) << sides;
+}
+
 TEST_F(Program, CentresThatCannotBeAreOneLine) {
   folder.write("square.obj", kFlatSquare);
   expect_refused({"centre", "square.obj"}, "--of");
   expect_refused({"centre", "square.obj", "--of", "99"}, "99");
   expect_refused({"centre", "square.obj", "--of", "boundary"}, "--of: point 0");
   expect_refused({"centre", "square.obj", "--of", "0,1", "--weights", "1"},
-                 "1 weights for 2 points");
+                 "--weights: 1 weight for 2 points");
   expect_refused({"centre", "square.obj", "--of", "0,1", "--weights", "1,x"}, "'x'");
   expect_refused({"centre", "square.obj", "--of", "0,1", "--method", "heat"}, "heat");
   expect_refused({"sample", "square.obj", "-n", "2", "--relax", "0"}, "--relax");
@@ -218,6 +247,67 @@ TEST_F(Program, RelaxedSamplesHaveTheEnergyOfEachStep) {
   EXPECT_EQ(sum, report["model"]["vertices"].get<double>());
 }
 
+/// Two squares apart: what is given in one has no answer in the other.
+TEST_F(Program, SpreadSaysWhatItDoesNotReach) {
+  folder.write("two.obj",
+               "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 5 0 0\nv 6 0 0\nv 5 1 0\nf 1 2 3\nf 4 5 6\n");
+  const std::string said = "3 vertices lie in components without a given ";
+  for (const std::vector<std::string>& words :
+       {std::vector<std::string>{"extend", "two.obj", "--value", "0:1", "--json", "-"},
+        {"transport", "two.obj", "--vector", "0:1:0", "--json", "-"}}) {
+    const ProgramRun result = run(words);
+    EXPECT_NE(result.err.find(said), std::string::npos) << result.err;
+    EXPECT_NE(Json::parse(result.out)["warnings"].dump().find(said), std::string::npos);
+  }
+}
+
+TEST_F(Program, SpreadRefusesContradictions) {
+  folder.write("square.obj", kFlatSquare);
+  const ProgramRun values =
+      run_program(folder.path("."), {"extend", "square.obj", "--value", "0:1", "--value", "0:2"});
+  EXPECT_EQ(values.code, 2);
+  EXPECT_NE(values.err.find("--value: vertex 0 was given 1 and 2"), std::string::npos);
+  expect_refused({"transport", "square.obj", "--vector", "3:0:1", "--vector", "3:0:2"},
+                 "--vector: vertex 3 was given 0:1 and 0:2");
+}
+
+/// On the plane, where all of it can be worked out from the places that are written.
+TEST_F(Program, RelaxedSamplesAreReportedWhereTheyAre) {
+  constexpr double kRoundOff = 1e-9;
+  ASSERT_TRUE(write_mesh(folder.path("plane.ply"), *finish(plane_grid(12, 12, 1, 1))));
+  const Json report = json({"sample", "plane.ply", "-n", "5", "--relax", "20", "-o", "cells.npy",
+                            "--samples", "s.npy", "--json", "-"});
+  const auto rows = npy_values<double>(bytes_of(folder.path("s.npy")));
+  const auto cells = npy_values<double>(bytes_of(folder.path("cells.npy")));
+  ASSERT_EQ(rows.size(), 5U * 7U);  // face, weights, position
+  double apart = 10, radius = 0;
+  std::vector<double> radii(5, 0.0);
+  for (std::size_t i = 0; i < 5; ++i) {
+    const Json& sample = report["samples"][i];
+    EXPECT_TRUE(sample["vertex"].is_null());
+    EXPECT_EQ(sample["point"]["face"].get<double>(), rows[7 * i]);
+    const Vec3 at(rows[7 * i + 4], rows[7 * i + 5], rows[7 * i + 6]);
+    for (int k = 0; k < 3; ++k) EXPECT_EQ(sample["position"][k].get<double>(), at[k]);
+    for (std::size_t j = 0; j < i; ++j) {
+      apart =
+          std::min(apart, (at - Vec3(rows[7 * j + 4], rows[7 * j + 5], rows[7 * j + 6])).norm());
+    }
+  }
+  for (std::size_t v = 0; v < cells.size(); v += 2) {
+    radius = std::max(radius, cells[v]);
+    double& of_cell = radii[static_cast<std::size_t>(cells[v + 1])];
+    of_cell = std::max(of_cell, cells[v]);
+  }
+  EXPECT_NEAR(report["separation"].get<double>(), apart, kRoundOff);
+  EXPECT_EQ(report["radius"].get<double>(), radius);
+  for (std::size_t i = 0; i < 5; ++i) {
+    EXPECT_EQ(report["samples"][i]["radius"].get<double>(), radii[i]);
+  }
+  const ProgramRun table = run({"sample", "plane.ply", "-n", "5", "--relax", "20"});
+  EXPECT_NE(table.out.find("face"), std::string::npos) << table.out;
+  EXPECT_NE(table.out.find("by distances of wavefront"), std::string::npos) << table.out;
+}
+
 TEST_F(Program, RelaxedSamplesAreSourcesOfOtherCommands) {
   run({"sample", "bunny", "-n", "12", "--relax", "2", "--no-check", "-o", "cells.npy", "--samples",
        "centres.txt"});
@@ -232,7 +322,8 @@ TEST_F(Program, RelaxedSamplesAreSourcesOfOtherCommands) {
 TEST_F(Program, SourcesThatAreMaskedOutAreSaidToBe) {
   folder.write("square.obj", kFlatSquare);
   folder.write("mask.txt", "0 0 1 0 0\n");
-  expect_refused({"solve", "square.obj", "-s", "2", "--mask", "mask.txt"}, "masked out");
+  expect_refused({"solve", "square.obj", "-s", "2", "--mask", "mask.txt"},
+                 "that a mask leaves out");
 }
 
 TEST_F(Program, DirectionsThatCannotBeAreOneLine) {

@@ -129,6 +129,10 @@ TEST_F(ProgramFigure, SaysWhatIsNotUsedAndWhatCannotBeWritten) {
   EXPECT_NE(said({"-s", "17", "--values", "50,60"}).find("none of --values 50,60"),
             std::string::npos);
   EXPECT_EQ(said({"--view", "smooth", "--title", "\u2207\u03c6"}), "");
+  const std::string regions = said({"-s", "17,900", "--view", "regions", "--bands", "4"});
+  EXPECT_NE(regions.find("--bands is not used: each region has a colour"), std::string::npos);
+  const std::string error = said({"-s", "17", "--view", "exact-error", "--no-check"});
+  EXPECT_NE(error.find("--no-check is not used: --view exact-error"), std::string::npos) << error;
 }
 
 TEST_F(ProgramFigure, HasItsSizeOnPaper) {
@@ -265,21 +269,32 @@ TEST_F(ProgramFigure, OfVectorsHasArrowsAndOfLogMapsLines) {
   EXPECT_LT(rays, 0.2);
 }
 
-TEST_F(ProgramFigure, OfValuesBelowZeroHasZeroInTheMiddle) {
+/// A .npy file of four values, and the tetrahedron that they are of.
+void write_four_values(const TemporaryDirectory& folder, const std::vector<float>& values) {
   const std::string header =
       "{'descr': '<f4', 'fortran_order': False, 'shape': (4,), }" + std::string(60, ' ');
   std::string bytes("\x93NUMPY\x01\x00", 8);
   bytes += {static_cast<char>(header.size()), 0};
   bytes += header;
-  for (const float value : {-1.0F, 2.0F, 0.5F, std::numeric_limits<float>::quiet_NaN()}) {
+  for (const float value : values) {
     bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
   }
   std::ofstream(folder.path("v.npy"), std::ios::binary) << bytes;
   std::ofstream(folder.path("t.obj"))
       << "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n";
+}
+
+TEST_F(ProgramFigure, OfValuesBelowZeroHasZeroInTheMiddle) {
+  write_four_values(folder, {-1, 2, 0.5F, std::numeric_limits<float>::quiet_NaN()});
   const Json made = json({"render", "t.obj", "--field", "v.npy", "-o", "a.png", "--json", "-"});
   EXPECT_EQ(made["picture"]["range"], Json({-2, 2}));
   EXPECT_EQ(made["picture"]["field"], "v.npy");
+}
+
+TEST_F(ProgramFigure, OfNoNumberAtAllIsRefused) {
+  write_four_values(folder, std::vector<float>(4, std::numeric_limits<float>::quiet_NaN()));
+  expect_refused({"render", "t.obj", "--field", "v.npy", "-o", "a.png"},
+                 "none of the 4 values of v.npy is a finite number");
 }
 
 }  // namespace

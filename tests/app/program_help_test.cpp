@@ -3,8 +3,11 @@
 
 #include <cstdio>
 #include <cstdlib>
+#include <filesystem>
 #include <memory>
+#include <set>
 
+#include "app/session/settings.h"
 #include "tests/app/program_fixture.h"
 
 namespace geotherm::test {
@@ -26,6 +29,24 @@ class ProgramHelp : public Program {
     return folder.write("completion." + shell, run({"completion", shell}).out);
   }
 };
+
+/// Settings that hints name in the sources; `with_values`: those alone that hints have values for.
+std::set<std::string> hinted_settings(bool with_values) {
+  const std::string begin = "SettingHint{\"";
+  const std::filesystem::path root = std::filesystem::path(GEOTHERM_DOCS).parent_path();
+  std::set<std::string> names;
+  for (const char* folder : {"app", "engine", "solver", "ui"}) {
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(root / folder)) {
+      if (entry.path().extension() != ".cpp") continue;
+      const std::string text = bytes_of(entry.path().string());
+      for (std::size_t at = text.find(begin); at != text.npos; at = text.find(begin, at + 1)) {
+        const std::size_t from = at + begin.size(), to = text.find('"', from);
+        if (!with_values || text[to + 1] == ',') names.insert(text.substr(from, to - from));
+      }
+    }
+  }
+  return names;
+}
 
 TEST_F(ProgramHelp, IsWhatTheProgramAloneAndTheCommandHelpPrint) {
   const std::string help = run({"--help"}).out;
@@ -54,6 +75,19 @@ TEST_F(ProgramHelp, IsSilentAboutWordsThatAreFarFromAll) {
   EXPECT_EQ(far.err.find("did you mean"), std::string::npos) << far.err;
 }
 
+TEST_F(ProgramHelp, HasAnOptionForEachSettingThatAHintNames) {
+  const std::string options = run({"completion", "fish"}).out;
+  const std::set<std::string> names = hinted_settings(false);
+  EXPECT_TRUE(names.contains("backend") && names.contains("memory-limit"));
+  for (const std::string& name : names) {
+    EXPECT_NE(options.find(" -l " + name + " "), options.npos) << name;
+  }
+  // The window has a button for each value, so these are in the table; it has no signed distance.
+  std::set<std::string> missing = hinted_settings(true);
+  std::erase_if(missing, [](const std::string& name) { return app::find_setting(name); });
+  EXPECT_EQ(missing, std::set<std::string>{"rule"});
+}
+
 TEST_F(ProgramHelp, BashCompletesCommandsOptionsValuesAndFiles) {
   const std::string script = script_for("bash");
   folder.write("scan.obj", "");
@@ -67,6 +101,8 @@ TEST_F(ProgramHelp, BashCompletesCommandsOptionsValuesAndFiles) {
   EXPECT_EQ(completed("geotherm solve bun", 2), "bunny\n");
   EXPECT_EQ(completed("geotherm solve sca", 2), "scan.obj\n");
   EXPECT_EQ(completed("geotherm solve bunny -o sca", 4), "scan.obj\n");
+  EXPECT_EQ(completed("geotherm solve bunny --on-poor be", 4), "better\n");
+  EXPECT_EQ(completed("geotherm solve --quiet bun", 3), "bunny\n");  // which takes no value
   EXPECT_EQ(completed("geotherm help stu", 2), "study\n");
   EXPECT_EQ(completed("geotherm bunny --azim", 2), "--azimuth\n");  // which is the command view
 }
@@ -77,7 +113,8 @@ TEST_F(ProgramHelp, FishCompletesCommandsOptionsAndValues) {
   const auto completed = [&](const std::string& line) {
     return shell_says("HOME=. fish -c 'source " + script + "; complete -C \"" + line + "\"'");
   };
-  EXPECT_EQ(completed("geotherm solve bunny --backend nat"), "native\tlinear solver\n");
+  EXPECT_EQ(completed("geotherm solve bunny --backend nat").substr(0, 20), "native\tlinear solver");
+  EXPECT_NE(completed("geotherm solve --memory-l").find("a backend's factors"), std::string::npos);
   EXPECT_EQ(completed("geotherm solve --lap").substr(0, 11), "--laplacian");
   EXPECT_EQ(completed("geotherm isol").substr(0, 8), "isolines");
 }
@@ -87,10 +124,11 @@ TEST_F(ProgramHelp, ZshTakesItsScript) {
   if (shell_says("command -v zsh").empty()) GTEST_SKIP() << "zsh is not installed";
   // Options that zsh cannot read are said where they are first used, by _arguments.
   const std::string said = shell_says(
-      "zsh -f -c 'compdef() { }; _arguments() { print -r -- $#; }; _files() { }; words=(geotherm "
-      "solve); CURRENT=3; source " +
+      "zsh -f -c 'compdef() { }; _arguments() { print -r -- $# \"$@\"; }; _files() { }; "
+      "words=(geotherm solve); CURRENT=3; source " +
       script + "; _geotherm' 2>&1");
   EXPECT_GT(std::atoi(said.c_str()), 30) << said;
+  EXPECT_NE(said.find("a backend's factors"), std::string::npos) << said;
 }
 
 }  // namespace

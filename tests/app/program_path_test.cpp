@@ -154,6 +154,9 @@ INSTANTIATE_TEST_SUITE_P(
         Refused{
             "ManyPoints", {"path", "square.obj", "--from", "1,2", "--to", "3"}, "not one point"},
         Refused{"OutOfRange", {"path", "square.obj", "--from", "1", "--to", "99"}, "--to 99"},
+        Refused{"OffsetAtTheEnd",
+                {"path", "square.obj", "--from", "1", "--to", "2@1"},
+                "--to: '2@1' has an offset"},
         Refused{"Field",
                 {"path", "square.obj", "--from", "1", "--to", "2", "--field", "x"},
                 "geodesic, distance, heat"},

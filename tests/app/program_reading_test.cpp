@@ -31,6 +31,15 @@ class Reading : public testing::Test {
   TemporaryDirectory folder;
 };
 
+TEST_F(Reading, AFileNamedLikeABundledModelIsSaidNotToBeIt) {
+  folder.write("bunny", kCracked);
+  const std::string warning =
+      "warning: the bundled model bunny was taken, not the file of this name; write ./bunny for";
+  EXPECT_NE(run({"solve", "bunny", "-s", "0"}).err.find(warning), std::string::npos);
+  EXPECT_EQ(run({"solve", "./bunny", "--format", "obj", "-s", "0"}).err.find("bundled"),
+            std::string::npos);
+}
+
 TEST_F(Reading, StandardInputIsAModelOfTheFormatThatIsNamed) {
   const auto words = [](const std::string& model) {
     return std::vector<std::string>{"solve", model, "--format", "obj", "-s", "0", "-o", "-"};

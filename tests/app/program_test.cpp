@@ -147,6 +147,22 @@ TEST_F(Program, SolveSaysWhatIsUnreached) {
             std::string::npos);
 }
 
+/// The two faces touch along an edge whose ends stand twice in the file.
+TEST_F(Program, SolveKnowsWhereWeldingReachesMore) {
+  const std::string first = "v 0 0 0\nv 1 0 0\nv 0 1 0\n", faces = "f 1 2 3\nf 4 5 6\n";
+  folder.write("soup.obj", first + "v 1 0 0\nv 1 1 0\nv 0 1 0\n" + faces);
+  folder.write("apart.obj", first + "v 5 0 0\nv 5 1 0\nv 4 1 0\n" + faces);
+  const std::string cure =
+      "--weld 0 joins vertices that lie on each other, which leaves 1 component";
+  const std::string soup = run({"solve", "soup.obj", "-s", "0"}).err;
+  EXPECT_NE(soup.find(cure), std::string::npos) << soup;
+  const std::string apart = run({"solve", "apart.obj", "-s", "0"}).err;
+  EXPECT_NE(apart.find("3 vertices lie in components"), std::string::npos) << apart;
+  EXPECT_EQ(apart.find("--weld"), std::string::npos) << apart;
+  EXPECT_EQ(run({"solve", "soup.obj", "-s", "0", "--weld", "0"}).err.find("components"),
+            std::string::npos);
+}
+
 class ProgramBackends : public Program, public testing::WithParamInterface<std::string> {};
 
 TEST_P(ProgramBackends, SolveWithEachName) {

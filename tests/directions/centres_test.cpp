@@ -52,6 +52,23 @@ std::vector<SurfacePoint> mixed_points() {
           SurfacePoint::in_face(200, {0, 1, 0})};
 }
 
+/// Squares of lengths are beyond the range of doubles there.
+TEST(Centres, AreFoundInModelsOfAnyUnit) {
+  for (const double size : {1e-300, 1e-170, 1e170, 1e300}) {
+    const MeshPtr mesh = finish(plane_grid(8, 8, size, size));
+    for (const CentreKind kind : {CentreKind::kMean, CentreKind::kMedian}) {
+      const Centres found = centres(mesh, at_vertices({0, 8, 72, 80}), {}, kind);
+      const Centre& centre = found.found.front();
+      const Vec3 at = position_at(*mesh, centre.point);
+      EXPECT_NEAR((at / size - Vec3(0.5, 0.5, 0)).norm(), 0, kExact) << size;
+      for (const double d : centre.distances) EXPECT_NEAR(d / size, std::sqrt(0.5), kExact);
+      if (kind == CentreKind::kMedian) {
+        EXPECT_NEAR(centre.energy / size, std::sqrt(0.5), kExact);
+      }
+    }
+  }
+}
+
 TEST(Centres, MeanOnThePlaneIsTheCentroid) {
   const MeshPtr mesh = finish(jittered_plane(12, 0.3, 1));
   const std::vector<SurfacePoint> points = mixed_points();

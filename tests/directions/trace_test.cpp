@@ -47,7 +47,7 @@ TEST_P(TracedOnThePlane, LinesAreStraight) {
   for (const double length : {0.0, 0.05, 0.3, 2.0}) {
     for (int i = 0; i < 40; ++i) {
       const double angle =
-          frame->border ? frame->angle * (i + 0.5) / 40 : 0.1 + 2 * std::numbers::pi * i / 40;
+          frame->on_boundary ? frame->angle * (i + 0.5) / 40 : 0.1 + 2 * std::numbers::pi * i / 40;
       const Vec3 way = frame->vector(angle);
       double most = std::numeric_limits<double>::infinity();
       for (int k = 0; k < 2; ++k) {
@@ -55,7 +55,7 @@ TEST_P(TracedOnThePlane, LinesAreStraight) {
         if (way[k] < 0) most = std::min(most, -from[k] / way[k]);
       }
       const TracedLine line = traced(*directions, GetParam(), angle, length);
-      EXPECT_EQ(line.end, length <= most ? TraceEnd::kLength : TraceEnd::kBorder);
+      EXPECT_EQ(line.end, length <= most ? TraceEnd::kLength : TraceEnd::kBoundary);
       EXPECT_NEAR(line.path.length, std::min(length, most), kTraceExact);
       const Vec3 to = position_at(*mesh, line.path.points.back());
       EXPECT_NEAR((to - from - std::min(length, most) * way).norm(), 0, kTraceExact);

@@ -107,7 +107,7 @@ class DenseVectorHeat {
     }
     for (Index v = 0; v < size_; ++v) {
       double begin = 0;
-      const bool border = frames_[v].border;
+      const bool border = frames_[v].on_boundary;
       const double scale = border ? 1 : 2 * std::numbers::pi / sum[v];
       for (Index to = frames_[v].first; !angle_of_.contains({v, to});) {
         angle_of_[{v, to}] = scale * begin;

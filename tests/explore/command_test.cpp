@@ -302,6 +302,7 @@ TEST(Completions, AreSecondWordsAndValues) {
   EXPECT_EQ(completions("target "), Words{});
   EXPECT_EQ(completions("open gargo"), Words{"gargoyle"});
   EXPECT_EQ(completions("source set ra"), Words{"random:"});
+  EXPECT_EQ(completions("source set sa"), Words{"sample:"});
   EXPECT_EQ(completions("source add 3 bou"), Words{"boundary"});
   const std::string folder = testing::TempDir() + "geotherm_completions/";
   std::filesystem::create_directories(folder + "inner");

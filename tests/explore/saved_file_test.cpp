@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What scripts may write, and that what is written holds no instruction for another program.
+// What scripts may write, that what is written holds no instruction for another program, and which
+// line of a script is named where its work fails.
 #include "app/session/script.h"
 
 #include <cstdlib>
@@ -170,6 +171,40 @@ TEST_F(SavedFile, OfAScriptIsKnownBeforeItRuns) {
   EXPECT_EQ(files_written_by(place("outer.geotherm")),
             (std::vector<std::string>{"a.png", "d.csv", "b.geotherm"}));
   EXPECT_TRUE(files_written_by(place("none.geotherm")).empty());
+}
+
+TEST_F(SavedFile, OfCommandsSaysTheLineWhoseWorkFails) {
+  const std::string path = folder() + "bad.geotherm";
+  const std::string open = "open " + small_model() + "\n";
+  write(folder() + "other.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  const std::vector<std::pair<std::string, std::string>> wrong = {
+      {"open nosuch.obj\nazimuth 30\n", "line 1: "},
+      {open + "source set 999999\ntarget 5\nview flat\n", "line 2: source 999999: there is no"},
+      {open + "source set 5\nsource set 5@0.5\nazimuth 30\n", "line 3: "},
+      {open + "sequence " + folder() + "other.obj\nsource set 5\n", "line 2: "},
+      {open + "# a comment\nfield nosuch.npy\nview contours\n", "line 3: "},
+      {open + "source set 5\nsculpt pull 0.1 0.5 face:99999:1:0:0\nsource set 7\n",
+       "line 3: there is no face 99999 to sculpt"},
+      {open + "source set 5\npick face:99999:1:0:0\nview flat\n",
+       "line 3: pick: there is no face 99999; faces are 0 to "},
+  };
+  for (const auto& [script, what] : wrong) {
+    write(path, script);
+    Session fresh;
+    const auto ran = fresh.submit(command::Run{path});
+    ASSERT_FALSE(ran) << what;
+    EXPECT_NE(sentence(ran.error()).find("bad.geotherm: " + what), std::string::npos)
+        << sentence(ran.error());
+  }
+  write(path, open + "source set 5\n");
+  Session mine;
+  ASSERT_TRUE(mine.submit(command::Run{path}));
+  const auto refused = mine.submit(*parse_command("source set 999999"));
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(sentence(refused.error()).find("line"), std::string::npos) << "no script asked for it";
+  EXPECT_NE(sentence(mine.submit(*parse_command("pick face:99999:1:0:0")).error())
+                .find("there is no face 99999"),
+            std::string::npos);
 }
 
 }  // namespace

@@ -62,7 +62,7 @@ TEST_F(SessionMesh, DistancesEndWhereTheyAreTold) {
   EXPECT_EQ(std::ranges::count(again, Command(command::MaxDistance{0.3})), 1);
   run({"undo"});
   EXPECT_EQ(shown().distances, all);
-  EXPECT_NE(refused("max-distance 0").find("number"), std::string::npos);
+  EXPECT_NE(refused("max-distance 0").find("no length above 0"), std::string::npos);
 }
 
 TEST_F(SessionMesh, TheCentreOfSourcesIsShownWithItsWays) {

@@ -293,7 +293,9 @@ TEST_F(SessionTest, ScriptsSayTheirLineAndStopWhereTheyFail) {
         "open " + small_model() + "\nsource set 99999999\nsave log " + folder() + "x.geotherm\n");
   const auto ran = session.submit(command::Run{path});
   ASSERT_FALSE(ran);
-  EXPECT_NE(sentence(ran.error()).find("there is no vertex 99999999"), std::string::npos);
+  EXPECT_NE(sentence(ran.error()).find("bad.geotherm: line 2: source 99999999: there is no vertex"),
+            std::string::npos)
+      << sentence(ran.error());
   write(path, "view flat\nview smooth\nredo\n");
   const auto undone = session.submit(command::Run{path});
   ASSERT_FALSE(undone);

@@ -85,7 +85,7 @@ std::string fields_fault(const TriangleMesh& mesh, const DistanceResult& answer)
     return "u is no number";
   }
   const auto error = signed_error(answer.distances, answer.distances);
-  for (const QualityField field : all_quality_fields()) {
+  for (const QualityField field : all_values<QualityField>()) {
     if (needs_heat(field) && answer.log_heat.empty()) continue;
     const DataField made = quality_field(field, mesh, answer, error);
     const auto size =
@@ -125,7 +125,7 @@ std::string accuracy_fault(const FuzzCase& given, const std::vector<double>& hea
   if (!report) return message_fault(sentence(report.error()));
   if (const std::string fault = message_fault(sentence(*report)); !fault.empty()) return fault;
   if (report->remedy && !(report->remedy->mean_relative <= kGoodError))
-    return "a cure that is not good";
+    return "a remedy that is not good";
   if (!report->cause) return "";
   const ErrorCause& cause = *report->cause;
   if (!(cause.mean_relative_after < cause.mean_relative_before)) return "a cause without effect";
@@ -139,7 +139,8 @@ std::string report_fault(const TriangleMesh& mesh) {
     if (!(figure >= 0)) return "a figure of the mesh is no number";
   }
   const CrackReport cracks = find_cracks(mesh);
-  if (!(cracks.distance >= 0) || cracks.vertices < 0 || cracks.closed_edges > cracks.border_edges) {
+  if (!(cracks.distance >= 0) || cracks.vertices < 0 ||
+      cracks.closed_edges > cracks.boundary_edges) {
     return "cracks that cannot be";
   }
   return "";

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Inserted vertices: what they must cure, and that the surface stays what it is.
+// Inserted vertices: what they must mend, and that the surface stays what it is.
 #include "solver/geometry/intrinsic_refinement.h"
 
 #include <gtest/gtest.h>

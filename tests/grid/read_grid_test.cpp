@@ -293,7 +293,7 @@ std::vector<GridDamage> grid_damages() {
       {"nrrd_text_short", "a.nrrd", kNrrd + "encoding: text\n\n1 2",
        "there are to be 6 samples, but only 3 bytes follow"},
       {"vti_surface", "a.vti", "<VTKFile type=\"PolyData\">\n",
-       "line 1: the file holds \"PolyData\" instead of an ImageData; a grid is an image"},
+       "line 1: the file holds \"PolyData\", not ImageData; a grid is an image"},
       {"vti_cells", "a.vti",
        "<VTKFile type=\"ImageData\"><ImageData WholeExtent=\"0 1 0 1 0 0\"><Piece Extent=\"0 1 0 1 "
        "0 0\"><CellData></CellData></Piece>",

@@ -72,19 +72,19 @@ class ExtremeTimes : public testing::TestWithParam<std::tuple<std::string, doubl
 
 TEST_P(ExtremeTimes, GiveADistanceOrAWarningOrAnErrorWithTheCure) {
   const auto [backend, factor] = GetParam();
-  const std::string cure = factor > 1 ? "smaller time-factor" : "larger time-factor";
+  const std::string hint = factor > 1 ? "smaller time-factor" : "larger time-factor";
   const Draft draft = sphere(3);
   HeatOptions options = with_backend(backend);
   options.time_step.factor = factor;
-  const auto expect_cure = [&cure](const Error& error) {
+  const auto expect_hint = [&hint](const Error& error) {
     EXPECT_TRUE(error.code == ErrorCode::kNumericalFailure ||
                 error.code == ErrorCode::kBudgetEnded);
-    EXPECT_NE(sentence(error).find(cure), std::string::npos) << sentence(error);
+    EXPECT_NE(sentence(error).find(hint), std::string::npos) << sentence(error);
   };
   const auto method = HeatMethod::build(finish(draft), options);
-  if (!method) return expect_cure(method.error());
+  if (!method) return expect_hint(method.error());
   const auto result = method->solve(SourceSet::of_vertices({7}));
-  if (!result) return expect_cure(result.error());
+  if (!result) return expect_hint(result.error());
   if (!result->warnings.empty()) return;
   double mean = 0;
   for (std::size_t v = 0; v < draft.positions.size(); ++v) {

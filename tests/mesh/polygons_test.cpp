@@ -173,19 +173,20 @@ class PolygonFiles : public testing::TestWithParam<Sample> {};
 
 TEST_P(PolygonFiles, KeepTheirFaces) {
   const TemporaryDirectory folder;
-  const auto mesh = read_polygons(folder.write(GetParam().file, GetParam().bytes));
-  ASSERT_TRUE(mesh) << sentence(mesh.error());
+  const auto file = read_polygons(folder.write(GetParam().file, GetParam().bytes));
+  ASSERT_TRUE(file) << sentence(file.error());
+  const PolygonMesh& mesh = file->mesh;
   if (GetParam().file.ends_with(".stl")) {  // triangles alone
-    EXPECT_EQ(mesh->start.size(), 7U);
+    EXPECT_EQ(mesh.start.size(), 7U);
     return;
   }
-  EXPECT_EQ(mesh->positions, pyramid_positions());
-  ASSERT_EQ(mesh->start.size(), 6U);
+  EXPECT_EQ(mesh.positions, pyramid_positions());
+  ASSERT_EQ(mesh.start.size(), 6U);
   std::vector<std::int64_t> corners;
-  for (std::size_t f = 1; f < 6; ++f) corners.push_back(mesh->start[f] - mesh->start[f - 1]);
+  for (std::size_t f = 1; f < 6; ++f) corners.push_back(mesh.start[f] - mesh.start[f - 1]);
   EXPECT_EQ(std::ranges::count(corners, 3), 4);
   EXPECT_EQ(std::ranges::count(corners, 4), 1);
-  const auto triangles = triangulated(*mesh);
+  const auto triangles = triangulated(mesh);
   ASSERT_TRUE(triangles);
   EXPECT_TRUE(std::ranges::equal(triangles->faces(), pyramid_faces()));
 }

@@ -111,7 +111,7 @@ std::vector<Damage> off_damages() {
       {"off_coordinate_unreadable", "a.off", "OFF\n3 1 0\n0 0 x0\n1 0 0\n0 1 0\n3 0 1 2\n",
        "line 3: \"x0\" is not a number in vertex 1 of 3"},
       {"off_no_faces", "a.off", "OFF\n1 0 0\n0 0 0\n",
-       "the mesh has no faces (1 vertices); distances need a surface of triangles"},
+       "the mesh has no faces (1 vertex); distances need a surface of triangles"},
   };
 }
 

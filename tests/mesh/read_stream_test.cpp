@@ -12,6 +12,11 @@
 namespace geotherm::test {
 namespace {
 
+Result<MeshFile> read_stream(int descriptor, const std::string& name, std::string_view format) {
+  const auto input = ModelInput::stream(descriptor, name, format);
+  return input ? read_mesh(*input) : input.error();
+}
+
 /// Reads what comes out of a pipe into which `bytes` are written.
 Result<MeshFile> read_from_pipe(const std::string& bytes, std::string_view format) {
   int ends[2];
@@ -24,7 +29,7 @@ Result<MeshFile> read_from_pipe(const std::string& bytes, std::string_view forma
     }
     ::close(ends[1]);
   });
-  auto file = read_mesh(ends[0], format, "the pipe");
+  auto file = read_stream(ends[0], "the pipe", format);
   writer.join();
   ::close(ends[0]);
   return file;
@@ -79,7 +84,7 @@ TEST(Stream, SaysWhatIsWrongWithIt) {
   EXPECT_EQ(sentence(read_from_pipe("", "obj").error()), "the pipe: there was nothing to read");
   EXPECT_EQ(sentence(read_from_pipe("v 1 2\n", "obj").error()).find("the pipe: line 1"), 0U);
   EXPECT_EQ(read_from_pipe("v 1 2 3\n", "xyzw").error().code, ErrorCode::kNotAvailable);
-  EXPECT_EQ(read_mesh(-1, "obj", "nothing").error().code, ErrorCode::kBadFile);
+  EXPECT_EQ(read_stream(-1, "nothing", "obj").error().code, ErrorCode::kBadFile);
 }
 
 TEST(Stream, AFormatThatIsNamedCountsMoreThanTheExtension) {

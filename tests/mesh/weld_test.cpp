@@ -112,11 +112,11 @@ TEST(FindCracks, FindsTheDistanceThatClosesThem) {
     const Draft whole = transformed(sphere(2), scale, Vec3(3, 2, 1) * scale, true);
     const CrackReport cut = find_cracks(*finish(torn(whole, 0, 1)));
     EXPECT_EQ(cut.distance, 0);
-    EXPECT_EQ(cut.closed_edges, cut.border_edges);
+    EXPECT_EQ(cut.closed_edges, cut.boundary_edges);
     const MeshPtr torn_mesh = finish(torn(whole, 1e-4 * scale, 1));
     const CrackReport cracks = find_cracks(*torn_mesh);
     EXPECT_GT(cracks.distance, 0);
-    EXPECT_EQ(cracks.closed_edges, cracks.border_edges);
+    EXPECT_EQ(cracks.closed_edges, cracks.boundary_edges);
     const auto welded = weld(*torn_mesh, cracks.distance);
     ASSERT_TRUE(welded);
     EXPECT_EQ(welded->merged, cracks.vertices);

@@ -52,6 +52,13 @@ TEST(PointSurfaces, RefusePointsThatMakeNone) {
     EXPECT_EQ(surface.error().code, ErrorCode::kBadInput);
     EXPECT_NE(surface.error().message.find("make no surface"), std::string::npos);
   }
+  // Three are too few wherever they lie, and four are enough; the hint says so.
+  std::vector<Vec3> corners = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+  const auto three = surface_of(cloud_of(corners));
+  ASSERT_FALSE(three);
+  EXPECT_NE(sentence(three.error()).find("at least four points"), std::string::npos);
+  corners.emplace_back(1, 1, 0);
+  EXPECT_TRUE(surface_of(cloud_of(corners)));
   const auto same = surface_of(cloud_of(std::vector<Vec3>(100, Vec3(1, 2, 3))));
   ASSERT_FALSE(same);
   EXPECT_TRUE(same.error().message.starts_with("100 points at 1 place "));

@@ -102,7 +102,7 @@ def test_a_mean_on_the_plane_is_the_centroid(grid):
     assert np.allclose(
         mean.distances[0], np.linalg.norm(grid.vertices[points] - mean.points[0], axis=1)
     )
-    with pytest.raises(geotherm.InputError, match="weights"):
+    with pytest.raises(geotherm.InputError, match="1 weight for 4 points"):
         geotherm.centres(grid, points, [1.0])
 
 

@@ -56,6 +56,10 @@ const std::vector<Permission>& permissions() {
   const Names heat =
       with(polyhedral, {"solver/heat", "solver/volume", "solver/grid", "solver/accuracy",
                         "geotherm/heat_method.h", "geotherm/options.h", "geotherm/domains.h"});
+  const Names directions =
+      with(path, {"solver/directions", "solver/polyhedral", "solver/heat", "geotherm/directions.h",
+                  "geotherm/polyhedral_methods.h", "geotherm/heat_method.h"});
+  const Names accuracy = with(heat, {"geotherm/accuracy.h", "geotherm/build_method.h"});
   static const std::vector<Permission> kPermissions = {
       {"solver/include", {"geotherm"}, {"std", "eigen"}, {}},
       {"solver/core", base, {"std", "eigen"}, {"posix"}},
@@ -72,7 +76,10 @@ const std::vector<Permission>& permissions() {
       {"solver/volume", volume, {"std", "eigen"}, {}},
       {"solver/grid", with(volume, {"solver/grid"}), {"std", "eigen"}, {"zlib", "png"}},
       {"solver/heat", heat, {"std", "eigen"}, {}},
-      {"solver", {"solver", "geotherm"}, {"std", "eigen"}, {}},
+      {"solver/directions", directions, {"std", "eigen"}, {}},
+      {"solver/accuracy", accuracy, {"std", "eigen"}, {}},
+      {"solver/distributed", with(accuracy, {"solver/distributed"}), {"std", "eigen"}, {}},
+      {"solver/build_method.cpp", {"solver", "geotherm"}, {"std", "eigen"}, {}},
       {"docs/examples", {"geotherm", "docs/examples"}, {"std", "eigen"}, {}},
       {"app/main.cpp", {"solver", "geotherm", "engine", "shaders", "app", "ui"}, {"any"}, {}},
       {"app/drawing",
@@ -257,26 +264,6 @@ std::string refusal(std::string_view path, const Permission& permission, const s
   return from + " must not use " + header + " (" + library + ")";
 }
 
-/// Whether a string literal of the line holds two dashes and a letter; comments may.
-bool has_option_in_string(std::string_view line) {
-  bool in_string = false;
-  for (std::size_t i = 0; i < line.size(); ++i) {
-    const std::string_view rest = line.substr(i);
-    if (!in_string && rest.starts_with("//")) return false;
-    if (!in_string && rest.starts_with("'\"'")) {
-      i += 2;
-    } else if (in_string && line[i] == '\\') {
-      ++i;
-    } else if (line[i] == '"') {
-      in_string = !in_string;
-    } else if (in_string && rest.size() > 2 && rest.starts_with("--") &&
-               std::isalpha(static_cast<unsigned char>(rest[2])) != 0) {
-      return true;
-    }
-  }
-  return false;
-}
-
 }  // namespace
 
 bool is_code(std::string_view path) {
@@ -349,23 +336,6 @@ std::vector<Violation> check_backend_conditions(const SourceFile& file) {
                     [&](const char* word) { return condition.find(word) != std::string::npos; });
     if (!on_backend) return;
     found.push_back({file.path, number, "a condition on a backend belongs in the registry"});
-  });
-  return found;
-}
-
-std::vector<Violation> check_option_names(const SourceFile& file) {
-  std::vector<Violation> found;
-  constexpr const char* kFolders[] = {"solver",      "engine",     "app/session", "app/picture",
-                                      "app/drawing", "app/window", "ui"};
-  const bool applies = std::ranges::any_of(
-      kFolders, [&](const char* folder) { return starts_with_folder(file.path, folder); });
-  // The table of settings has the spellings of their options.
-  const bool is_table = file.path == "app/session/method_settings.cpp" ||
-                        file.path == "app/session/picture_settings_table.cpp";
-  if (!is_code(file.path) || !applies || is_table) return found;
-  for_each_line(file.text, [&](int number, const std::string& line) {
-    if (!has_option_in_string(line)) return;
-    found.push_back({file.path, number, "a string names an option; a hint names a setting"});
   });
   return found;
 }

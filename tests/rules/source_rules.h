@@ -37,7 +37,8 @@ std::vector<Violation> check_length(const SourceFile& file);
 std::vector<Violation> check_backend_conditions(const SourceFile& file);
 
 /// No string of the library, the engine, the session or the viewer names an option of the command
-/// line, but for the table of settings: hints name settings.
+/// line, but for the table of settings: hints name settings. No string of the library and the
+/// engine names a sub-command ("geotherm WORD"): other programs use them, too.
 std::vector<Violation> check_option_names(const SourceFile& file);
 
 /// All paragraphs of a ```cpp block of the page stand, but for their indentation, in one of the

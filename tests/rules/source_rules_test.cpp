@@ -49,7 +49,11 @@ INSTANTIATE_TEST_SUITE_P(
         IncludeCase{"MethodKnowsTheHeatMethod", "solver/method/a.cpp",
                     "\"geotherm/heat_method.h\""},
         IncludeCase{"MethodKnowsItsOptions", "solver/method/a.cpp", "\"geotherm/options.h\""},
-        IncludeCase{"MethodReachesForward", "solver/method/a.cpp", "\"solver/wave/a.h\""},
+        IncludeCase{"MethodReachesForward", "solver/method/a.cpp", "\"solver/polyhedral/a.h\""},
+        IncludeCase{"DirectionsUseRanks", "solver/directions/a.cpp", "\"solver/distributed/a.h\""},
+        IncludeCase{"AccuracyUsesRanks", "solver/accuracy/a.cpp", "\"solver/distributed/a.h\""},
+        IncludeCase{"AccuracyUsesDirections", "solver/accuracy/a.cpp", "\"geotherm/directions.h\""},
+        IncludeCase{"RanksUseMpi", "solver/distributed/a.cpp", "<mpi.h>"},
         IncludeCase{"PublicHeaderShowsInternals", "solver/include/geotherm/a.h",
                     "\"solver/core/parallel.h\""},
         IncludeCase{"ExampleUsesInternals", "docs/examples/a.cpp", "\"solver/core/parallel.h\""},
@@ -103,6 +107,8 @@ INSTANTIATE_TEST_SUITE_P(
         IncludeCase{"SolverUsesEigen", "solver/heat/a.h", "<Eigen/Core>"},
         IncludeCase{"ExampleUsesTheFrontDoor", "docs/examples/a.cpp", "<geotherm/geotherm.h>"},
         IncludeCase{"ExampleUsesItsNeighbour", "docs/examples/a.cpp", "\"require.h\""},
+        IncludeCase{"HeatUsesBounds", "solver/heat/a.cpp", "\"solver/accuracy/distance_bounds.h\""},
+        IncludeCase{"RanksUseTheCheck", "solver/distributed/a.cpp", "\"geotherm/accuracy.h\""},
         IncludeCase{"HeatUsesAllBefore", "solver/heat/a.cpp", "\"geotherm/backend.h\""},
         IncludeCase{"BackendUsesCholmod", "solver/linear/a.cpp", "<cholmod.h>"},
         IncludeCase{"ReaderMapsFiles", "solver/mesh/io/a.cpp", "<sys/mman.h>"},
@@ -130,7 +136,9 @@ INSTANTIATE_TEST_SUITE_P(
     name_of);
 
 TEST(Rules, AFolderWithoutARuleIsFound) {
-  EXPECT_EQ(check_includes({"extras/a.cpp", "#include <vector>\n"}).size(), 1U);
+  for (const char* path : {"extras/a.cpp", "solver/extras/a.cpp", "solver/a.cpp"}) {
+    EXPECT_EQ(check_includes({path, "#include <vector>\n"}).size(), 1U) << path;
+  }
 }
 
 TEST(Rules, ASecondUserOfGlfwInTheEngineIsFound) {
@@ -181,6 +189,18 @@ TEST(Rules, AnOptionInAStringOutsideTheCommandLineIsFound) {
   for (const char* line : {"--count;\n", "f(\"a\", --b, \"c\");\n", "f(\"-- 3\");\n",
                            "f();  // \"--method wavefront\"\n", "f('\"', --b, '\"');\n"}) {
     EXPECT_TRUE(check_option_names({"solver/heat/a.cpp", line}).empty()) << line;
+  }
+}
+
+TEST(Rules, ASubCommandInAStringOfTheLibraryIsFound) {
+  const std::string line = "f(\"draw with geotherm render\");\n";
+  for (const char* file : {"solver/a.cpp", "solver/mesh/io/a.inl", "engine/vulkan/a.cpp"}) {
+    EXPECT_EQ(check_option_names({file, line}).size(), 1U) << file;
+  }
+  EXPECT_TRUE(check_option_names({"app/session/a.cpp", line}).empty());
+  for (const char* other : {"f(\"geotherm \");\n", "f(\"geotherm: error\");\n",
+                            "f();  // \"geotherm render\"\n", "#include \"geotherm/mesh.h\"\n"}) {
+    EXPECT_TRUE(check_option_names({"solver/a.cpp", other}).empty()) << other;
   }
 }
 
@@ -252,7 +272,7 @@ TEST_F(RulesTree, EachFileSaysItsLicence) { EXPECT_EQ(violations(check_licence),
 
 TEST_F(RulesTree, NoFileIsLong) { EXPECT_EQ(violations(check_length), ""); }
 
-TEST_F(RulesTree, NoStringOfTheSolverNamesAnOption) {
+TEST_F(RulesTree, NoStringBelowTheCommandLineNamesAnOptionOrASubCommand) {
   EXPECT_EQ(violations(check_option_names), "");
 }
 

@@ -262,13 +262,6 @@ TEST_F(Panels, OfferModelsWhereNoneIsOpen) {
   EXPECT_TRUE(session_.explored().model);
 }
 
-TEST_F(Panels, OfferTheModelsThatThereAre) {
-  Texts names, expected;
-  for (const app::BundledModel& model : app::bundled_models()) names.emplace_back(model.name);
-  for (const app::BundledModel& model : app::bundled_models()) expected.emplace_back(model.name);
-  EXPECT_EQ(names, expected);
-}
-
 TEST_F(Panels, TellAFailureOverThePicture) {
   open_square();
   panels_->drop({"/no/such/file.obj"});

@@ -226,7 +226,7 @@ TEST(SourceNames, AreShort) {
   EXPECT_EQ(name("17"), "vertex 17");
   EXPECT_EQ(name("3,4,5"), "3 vertices");
   EXPECT_EQ(name("random:5:7"), "5 random");
-  EXPECT_EQ(name("boundary"), "the whole border");
+  EXPECT_EQ(name("boundary"), "the whole boundary");
   EXPECT_EQ(name("face:12:0.123456789:0.2:0.676543211"), "point in face 12");
   EXPECT_EQ(name("curve:3,99,5"), "curve of 3 vertices");
   EXPECT_EQ(name("xyz:0.123456789:1:0"), "point 0.123, 1, 0");

@@ -128,7 +128,7 @@ std::vector<TetDamage> vtk_damages() {
        "there are the types of 2 cells, but 2 offsets"},
       {"vtu_other", "a.vtu", "hello\n", "line 1: there is no tag VTKFile"},
       {"vtu_surface", "a.vtu", "<VTKFile type=\"PolyData\">\n",
-       "line 1: the file holds \"PolyData\" instead of an UnstructuredGrid; a volume of tetrahedra "
+       "line 1: the file holds \"PolyData\", not UnstructuredGrid; a volume of tetrahedra "
        "is an unstructured grid"},
       {"vtu_compressor", "a.vtu",
        "<VTKFile type=\"UnstructuredGrid\" compressor=\"vtkLZ4DataCompressor\">\n",

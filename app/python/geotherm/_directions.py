@@ -109,7 +109,7 @@ def log_map(
 def trace(
     model: Model, point: Any, direction: float, length: float, *, progress: Progress = None
 ) -> Line:
-    """The straightest line from a point. It ends before its length at the border, and where three
+    """The straightest line from a point. It ends before its length at the boundary, and where three
     faces meet.
 
     Args:

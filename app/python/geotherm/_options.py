@@ -70,8 +70,8 @@ def given_options(function: str, given: Mapping[str, Any]) -> dict[str, Any]:
     for name in given:
         if name not in names:
             near = difflib.get_close_matches(name, names, 1)
-            cure = f"did you mean {near[0]!r}?" if near else f"there are {', '.join(names)}"
-            raise TypeError(f"{function}() has no option {name!r}; {cure}")
+            hint = f"did you mean {near[0]!r}?" if near else f"there are {', '.join(names)}"
+            raise TypeError(f"{function}() has no option {name!r}; {hint}")
     return {name: value for name, value in given.items() if value is not None}
 
 

@@ -43,7 +43,7 @@ std::vector<double> numbers_behind(std::string_view bytes, const NpyHeader& head
   return decode_samples(bytes.substr(header.begins), count, type, header.order);
 }
 
-/// From the first axis fastest to the last axis fastest, which is x.
+/// Reorders values whose first axis runs fastest so that the last axis, which is x, does.
 std::vector<double> in_c_order(const std::vector<double>& values,
                                const std::array<std::int64_t, 3>& size) {
   std::vector<double> out(values.size());

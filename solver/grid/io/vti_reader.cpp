@@ -118,8 +118,8 @@ class VtiFile {
     for (std::size_t e = 0; e < 3; ++e) grid_.spacing[e] *= direction[4 * e];
     for (std::size_t e = 0; e < 3; ++e) {
       const double count = whole_[2 * e + 1] - whole_[2 * e] + 1;
-      constexpr double kMost = 1e9;
-      if (!(count >= 1 && count <= kMost) || count != std::floor(count)) {
+      constexpr double kMaxCount = 1e9;
+      if (!(count >= 1 && count <= kMaxCount) || count != std::floor(count)) {
         fail_at_tag(bytes_, tag, "WholeExtent has no points along axis " + std::to_string(e));
       }
       grid_.size[e] = static_cast<std::int64_t>(count);

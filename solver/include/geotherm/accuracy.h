@@ -11,6 +11,7 @@
 
 #include "geotherm/build_method.h"
 #include "geotherm/io.h"
+#include "geotherm/names.h"
 
 // How wrong distances are, by a more accurate method, what would make them better, and where they
 // are right.
@@ -26,20 +27,25 @@ struct DistanceError {
   Index differently_reached = 0;  ///< vertices that one of both reaches and the other does not
 };
 
-/// Precondition: the same size. Cost: O(V).
+/// The error of distances d against better ones e. Precondition: the same size. Cost: O(V).
 DistanceError distance_error(std::span<const double> d, std::span<const double> e);
 
-/// The same over several source sets: the mean of the mean errors, the largest of the largest.
+/// How far distances are from better ones over several source sets.
 struct JointError {
   DistanceError figures;      ///< mean of the means, largest of the largest
   std::size_t worst_set = 0;  ///< of DistanceError::worst
 };
-/// Preconditions: as many of both, the same size in each pair.
+/// The error over all sets. Preconditions: as many of both, the same size in each pair.
 JointError joint_error(std::span<const std::vector<double>> d,
                        std::span<const std::vector<double>> e);
 
 /// How right an answer is, in a word.
 enum class Grade { kNearExact, kGood, kFair, kPoor };
+inline NamedValues<Grade> named_values(Grade) {
+  using enum Grade;
+  return {"there is no grade '*'",
+          {{kNearExact, "near exact"}, {kGood, "good"}, {kFair, "fair"}, {kPoor, "poor"}}};
+}
 
 /// Bounds of the mean relative error up to which an answer is near exact, good and fair, and of the
 /// largest error, as a share of the largest distance, above which it is poor whatever its mean: a
@@ -48,17 +54,15 @@ enum class Grade { kNearExact, kGood, kFair, kPoor };
 inline constexpr double kNearExactError = 1e-3, kGoodError = 0.02, kFairError = 0.05;
 inline constexpr double kMaxOfRange = 0.045;
 
-/// kPoor as well where one of both reaches vertices that the other does not.
+/// The grade of an error by these bounds; it is kPoor as well where one of both reaches vertices
+/// that the other does not.
 Grade grade_of(const DistanceError& error);
 
 /// How far an answer is from being good: at most 1 where it is. The larger of the mean error over
 /// kGoodError and the largest over kMaxOfRange.
 double badness(const DistanceError& error);
 
-/// near exact | good | fair | poor
-std::string to_text(Grade grade);
-
-/// V: d - e, infinite where either is.
+/// The differences d - e (V), infinite where either is.
 std::vector<double> signed_error(std::span<const double> d, std::span<const double> e);
 
 /// How many values of a signed error lie in each of `bins` equal parts of [low, high].
@@ -66,7 +70,8 @@ struct ErrorHistogram {
   double low = 0, high = 0;  ///< the ends, model units
   std::vector<Index> count;  ///< of each part
 };
-/// From the smallest to the largest value that is finite. Precondition: at least one bin.
+/// The histogram from the smallest to the largest value that is finite. Precondition: at least one
+/// bin.
 ErrorHistogram error_histogram(std::span<const double> signed_error, int bins);
 
 /// The more accurate method that a mesh of so many faces can be held against within a few seconds:
@@ -98,10 +103,10 @@ struct TriedSetting {
   double mean_relative = 0, max_of_range = 0;   ///< of DistanceError
   MethodKind against = MethodKind::kWavefront;  ///< what it was held against
 };
-/// One whose answer is good.
+/// A tried setting whose answer is good.
 using Remedy = TriedSetting;
 
-/// What to set.
+/// The setting and the value that were tried.
 SettingHint setting_of(const TriedSetting& tried);
 
 /// What diagnose() has found.
@@ -200,7 +205,7 @@ Result<ReferenceAnswers> solve_reference(
     std::span<const SourceSet> sources, int threads,
     std::shared_ptr<const IntrinsicSurface> triangulation = nullptr, const Progress& progress = {});
 
-/// The same by a method that is ready.
+/// Solves by a method that is ready. Errors: those of its queries.
 Result<ReferenceAnswers> solve_reference(const DistanceMethod& method,
                                          std::span<const SourceSet> sources,
                                          const Progress& progress = {});
@@ -227,18 +232,12 @@ Result<void> find_remedy(AccuracyReport& report, const std::shared_ptr<const Tri
 /// Where `options.reference` is no better than the method, nothing is measured. Errors: those of
 /// the reference; the distances themselves are untouched. Cost: a set-up of the reference without
 /// its triangulation, and its queries; the search, where one is made.
-///
-///     auto method = build_method(mesh, options);
-///     auto answer = (*method)->solve(sources);
-///     auto report = check_accuracy(mesh, {**method, options, {&sources, 1},
-///                                         {&answer->distances, 1}});
-///     if (report && report->is_poor()) warn(sentence(*report));
 Result<AccuracyReport> check_accuracy(const std::shared_ptr<const TriangleMesh>& mesh,
                                       const CheckedAnswers& answers,
                                       const AccuracyOptions& options = {},
                                       const Progress& progress = {});
 
-/// "0.81 %".
+/// A share as a percentage: "0.81 %".
 std::string percent_text(double share);
 
 // Where an answer is right: numbers on the vertices and faces of the mesh of the file.
@@ -252,13 +251,16 @@ enum class QualityField {
   kTriangleQuality,  ///< faces: 4 sqrt(3) area / (sum of squared sides); 1: equilateral
   kNonDelaunay,      ///< faces: how many of their edges have a negative cotangent weight, 0 to 3
 };
-
-/// error | eikonal-error | gradient-angle | lost-gradients | triangle-quality | non-delaunay
-std::string to_text(QualityField field);
-/// Inverse of to_text(). Errors: kBadInput, with the names there are.
-Result<QualityField> parse_quality_field(std::string_view text);
-/// In the order above.
-std::vector<QualityField> all_quality_fields();
+inline NamedValues<QualityField> named_values(QualityField) {
+  using enum QualityField;
+  return {"there is no field '*'",
+          {{kError, "error"},
+           {kEikonalError, "eikonal-error"},
+           {kGradientAngle, "gradient-angle"},
+           {kLostGradients, "lost-gradients"},
+           {kTriangleQuality, "triangle-quality"},
+           {kNonDelaunay, "non-delaunay"}}};
+}
 
 /// Whether a field is about u, which only answers of the heat method with QueryOptions::fields
 /// have.
@@ -279,14 +281,14 @@ DataField quality_field(QualityField field, const TriangleMesh& mesh, const Dist
 /// Source: Crane, Weischedel, Wardetzky (2013), section 3.1.
 std::vector<Vec3> heat_directions(const TriangleMesh& mesh, std::span<const double> log_heat);
 
-/// The values of a field alone: kEikonalError. `distances`: V.
+/// The values of the field kEikonalError. `distances`: V.
 std::vector<double> eikonal_errors(const TriangleMesh& mesh, std::span<const double> distances);
-/// kLostGradients. `distances`: V; `log_heat`: V, ln u.
+/// The values of the field kLostGradients. `distances`: V; `log_heat`: V, ln u.
 std::vector<double> lost_gradients(const TriangleMesh& mesh, std::span<const double> distances,
                                    std::span<const double> log_heat);
-/// kTriangleQuality. Of the mesh alone.
+/// The values of the field kTriangleQuality, which depend on the mesh alone.
 std::vector<double> triangle_qualities(const TriangleMesh& mesh);
-/// kNonDelaunay. Of the mesh alone.
+/// The values of the field kNonDelaunay, which depend on the mesh alone.
 std::vector<double> non_delaunay_edges(const TriangleMesh& mesh);
 
 /// The angle between two vectors of each face, degrees; infinite where either is 0. Exact for small

@@ -18,10 +18,13 @@
 // them. All three are immutable. docs/adding_a_backend.md leads through a backend of one's own.
 namespace geotherm {
 
-class BufferPool;        // solver/core/memory.h
-struct EliminationTree;  // solver/linear/elimination_tree.h
-struct EarlierRows;      // there, too
+// Types that only the library's own backends use: memory of earlier factors, the tree that says
+// which columns of a factor change which, an order that follows such a tree, and how rows stood
+// earlier.
+class BufferPool;
+struct EliminationTree;
 struct NodeOrder;
+struct EarlierRows;
 
 /// The nonzero pattern of a symmetric matrix as a graph: row i has a diagonal entry and one at
 /// every neighbour of i. Neighbours are sorted; the graph is symmetric and has no loops.
@@ -55,9 +58,9 @@ LowerPattern permuted_lower(const SymmetricPattern& pattern, std::span<const Ind
 /// position[order[k]] = k.
 std::vector<Index> inverse_permutation(std::span<const Index> order, int threads = 1);
 
-/// A number that differs (but for bad luck) between different patterns; the lower triangle of a
-/// pattern has that of the pattern.
+/// A number that differs (but for bad luck) between different patterns.
 std::uint64_t pattern_hash(const SymmetricPattern& pattern, int threads = 1);
+/// The number of the pattern that has this lower triangle.
 std::uint64_t pattern_hash(const LowerPattern& lower, int threads = 1);
 
 /// The lower triangle of a symmetric matrix by columns; the diagonal is the first entry of each.
@@ -147,7 +150,8 @@ struct EarlierFactor {
 struct FactorOptions {
   int threads = 1;                               ///< at most so many
   FactorStorage storage = FactorStorage::kFull;  ///< how its numbers are kept
-  /// Where memory of factors that are gone is kept for the next; null: nowhere.
+  /// Where memory of factors that are gone is kept for the next; null: nowhere. For the library's
+  /// own backends; others pass it over.
   std::shared_ptr<BufferPool> memory = nullptr;
   /// Where only some rows have changed, and more changes are to be expected: a backend may keep
   /// what it needs to do less next time. Null: it need not.
@@ -217,7 +221,8 @@ class Analysis {
   virtual std::int64_t work_bytes() const { return 0; }
 
   /// The tree of which the factors of this pattern are made; null where the backend has none that
-  /// follow() could keep.
+  /// follow() could keep. This, follow() and update() are for the library's own backends; others
+  /// leave them as they are.
   virtual const EliminationTree* tree() const { return nullptr; }
 
   /// The analysis of another pattern in an order that keeps such a tree. `eliminated`: the pattern
@@ -244,7 +249,7 @@ class Backend {
 
   /// As options name it: "native".
   virtual std::string_view name() const = 0;
-  /// What it is, in a few words, as `geotherm backends` lists it.
+  /// What it is, in a few words, for lists of backends.
   virtual std::string_view description() const = 0;
 
   /// Iterative: factorisation is free, a semidefinite operator is solved by projecting its kernel

@@ -25,17 +25,17 @@ class HeatMethod;
 /// towards e2.
 ///
 /// In a face e1 points from its first corner to its second, as the file has them. At a vertex the
-/// angles of its corners are added up, from the first edge on: on the border that from which the
+/// angles of its corners are added up, from the first edge on: on the boundary that from which the
 /// faces follow each other counterclockwise, elsewhere that towards the next corner of the first
-/// face with the vertex. Inside the surface the sum is scaled to 2 pi, on the border it stays what
-/// it is; the surface then lies in the directions from 0 to `angle`. At vertices e1 and e2 lie in
-/// the plane of the mean normal (faces weighted by their angles), e1 below the first edge; vectors
-/// in space are those of the tangent plane by that.
+/// face with the vertex. Inside the surface the sum is scaled to 2 pi, on the boundary it stays
+/// what it is; the surface then lies in the directions from 0 to `angle`. At vertices e1 and e2 lie
+/// in the plane of the mean normal (faces weighted by their angles), e1 below the first edge;
+/// vectors in space are those of the tangent plane by that.
 struct TangentFrame {
   Vec3 e1 = Vec3::UnitX(), e2 = Vec3::UnitY(), normal = Vec3::UnitZ();  ///< orthonormal
-  double angle = 0;        ///< of the surface round the point, radians: 2 pi where it is flat
-  bool border = false;     ///< a vertex on the border, where directions are not scaled
-  Index first = kNoIndex;  ///< of a vertex: the other end of its first edge
+  double angle = 0;          ///< of the surface round the point, radians: 2 pi where it is flat
+  bool on_boundary = false;  ///< a vertex on the boundary, where directions are not scaled
+  Index first = kNoIndex;    ///< of a vertex: the other end of its first edge
 
   /// The vector of this direction and length, in the units of the length.
   Vec3 vector(double direction, double length = 1) const;
@@ -45,8 +45,8 @@ struct TangentFrame {
 struct LogMap {
   TangentFrame frame;              ///< at the point
   std::vector<double> distances;   ///< V, model units; kUnreached where no path leads
-  std::vector<double> directions;  ///< V, radians, -pi to pi, on a border 0 to its angle, as the
-                                   ///< path leaves the point; NaN where there is no path
+  std::vector<double> directions;  ///< V, radians, -pi to pi, on the boundary 0 to its angle, as
+                                   ///< the path leaves the point; NaN where there is no path
   /// By waves: how many directions hang on which of two paths of almost one length is the shorter,
   /// which waves cannot tell. Exact maps have none.
   Index in_doubt = 0;
@@ -65,14 +65,14 @@ struct LogMapOptions {
 
 /// Why a straightest line ends.
 enum class TraceEnd {
-  kLength,  ///< it is as long as was asked for
-  kBorder,  ///< at the border
-  kSplit,   ///< at an edge with three faces or more, or a vertex of several fans
+  kLength,    ///< it is as long as was asked for
+  kBoundary,  ///< at the boundary
+  kSplit,     ///< at an edge with three faces or more, or a vertex of several fans
 };
 inline NamedValues<TraceEnd> named_values(TraceEnd) {
   using enum TraceEnd;
   return {"a line does not end by '*'",
-          {{kLength, "length"}, {kBorder, "border"}, {kSplit, "split"}}};
+          {{kLength, "length"}, {kBoundary, "border"}, {kSplit, "split"}}};
 }
 
 /// A straightest line.
@@ -125,7 +125,7 @@ class Directions {
   /// The straightest line (Polthier, Schmies 1998) from a point in a direction: straight across
   /// edges, and with the same angle on both sides at vertices. `length` in model units. It may pass
   /// a seam where orientations disagree. Errors: those of frame_at(), kBadInput (a direction or
-  /// length that is not finite, a negative length, at the border a direction that leaves the
+  /// length that is not finite, a negative length, at the boundary a direction that leaves the
   /// surface), kBudgetEnded (ten million pieces). Cost: O(pieces).
   Result<TracedLine> trace(const SurfacePoint& point, double direction, double length) const;
 
@@ -191,8 +191,9 @@ class VectorHeat {
 
   /// Vectors at all vertices. Their lengths are extended like values. Where the mesh is so wide
   /// that heat falls below the smallest double, backends that factorise make the time longer for
-  /// this call, and a warning says so. Errors: kBadInput (no vector, a vertex out of range or in no
-  /// face, numbers that are not finite; a mesh that is no oriented manifold, with the vertex),
+  /// this call, and a warning says so; another says how many vertices have no vector. Errors:
+  /// kBadInput (no vector, a vertex out of range or in no face, two different vectors at one
+  /// vertex, numbers that are not finite; a mesh that is no oriented manifold, with the vertex),
   /// those of the backend.
   Result<Spread> transport(std::span<const TangentVector> vectors,
                            const Progress& progress = {}) const;
@@ -228,7 +229,7 @@ Result<SignedDistance> signed_distance(const SignedSetup& setup,
                                        std::span<const SurfacePath> curves,
                                        SideRule rule = SideRule::kAuto,
                                        const Progress& progress = {});
-/// The same, with all that it needs set up for this call.
+/// Signed distance with all that it needs set up for this call.
 Result<SignedDistance> signed_distance(const std::shared_ptr<const TriangleMesh>& mesh,
                                        std::span<const SurfacePath> curves,
                                        SideRule rule = SideRule::kAuto,
@@ -246,7 +247,7 @@ inline NamedValues<CentreKind> named_values(CentreKind) {
 
 /// How a centre is looked for.
 struct CentreOptions {
-  CentreKind kind = CentreKind::kMean;     ///< of two
+  CentreKind kind = CentreKind::kMean;     ///< what of the points is looked for
   MethodKind method = MethodKind::kExact;  ///< of the log maps (LogMapOptions)
   int max_steps = 100;                     ///< of each descent, >= 1
   int threads = 0;                         ///< of the first search; 0: all cores
@@ -275,7 +276,7 @@ struct Centres {
 /// from the lowest of these, eight at most, it descends: in the tangent plane of a log map the mean
 /// or the median is found (Weiszfeld 1937; at the points themselves as in Vardi, Zhang 2000), and a
 /// straightest line leads there, half as far and so on until the energy falls. Further minima whose
-/// energy is at most 2 % more are found, too. At tips, on the border and at creases of the
+/// energy is at most 2 % more are found, too. At tips, on the boundary and at creases of the
 /// distances a descent can stall; then it has not converged.
 ///
 /// `points`: K, on one component. `weights`: K, >= 0, some above; none: all 1. Errors: kBadInput

@@ -45,9 +45,9 @@ struct Quality {
   Index clamped_vertices = 0;      ///< values below 0 by more than round-off, set to 0
   double clamped_reach = 0;        ///< straight line to the farthest of these, model units
   Index reached_vertices = 0;      ///< with a distance
-  /// Distances below the straight line to the nearest source by more than the method's tolerance
-  /// (BoundTolerance), before they are raised to it where that is done, and the largest share of
-  /// the line that is missing in one of them.
+  /// Distances below the straight line to the nearest source by more than the method's
+  /// tolerance, before they are raised to it where that is done, and the largest share of the line
+  /// that is missing in one of them.
   Index below_straight_line = 0;
   double most_below_straight_line = 0;  ///< that share
   /// Edges along which the distance differs by more than their length and that tolerance, and the
@@ -90,7 +90,7 @@ struct SetupTiming {
 /// Geodesic distance from one source set.
 struct DistanceResult {
   std::vector<double> distances;  ///< V, file order, model units; kUnreached where no source can be
-  Quality quality;                ///< figures that cost next to nothing
+  Quality quality;                ///< figures of the answer itself, without another method
   QueryTiming timing;             ///< of this query
   std::vector<Warning> warnings;  ///< one sentence each
 

@@ -155,13 +155,14 @@ struct GridFile {
 /// (kNotAvailable); kOutOfMemory. Never throws. What a file announces is held against its size
 /// before memory is asked for. Cost: the file and 8 bytes a sample in memory.
 Result<GridFile> read_grid(const ModelInput& input, GridValues values = GridValues::kAuto);
+/// Reads the grid of a path, as ModelInput::open() takes it.
 Result<GridFile> read_grid(const std::string& path, GridValues values = GridValues::kAuto);
 
 /// The extensions without their point: npy, png, vti, nrrd, nhdr.
 std::vector<std::string> grid_formats();
 /// Whether the format is one of those.
 bool holds_grid(const ModelInput& input);
-bool holds_grid(const std::string& path);
+bool holds_grid(const std::string& path);  ///< by the extension of a path
 
 /// True when write_distances() of a grid knows the extension; otherwise the error (kNotAvailable)
 /// says which there are.
@@ -262,7 +263,7 @@ Result<CellComplex> cells_of(const TetMesh& mesh);
 /// announces is held against its size before memory is asked for. Independent of the locale. Cost:
 /// a copy of the file in memory, and one pass over it.
 Result<TetFile> read_tets(const ModelInput& input);
-Result<TetFile> read_tets(const std::string& path);
+Result<TetFile> read_tets(const std::string& path);  ///< of a path, as ModelInput::open() takes it
 
 /// The extensions without their point: mesh, meshb, msh, vtk, vtu, node, ele.
 std::vector<std::string> tet_formats();
@@ -271,7 +272,7 @@ std::vector<std::string> tet_formats();
 /// unstructured grid). Whether there are tets among these only reading tells. False for a file that
 /// cannot be read. Cost: the first 4 KiB.
 bool holds_tets(const ModelInput& input);
-bool holds_tets(const std::string& path);
+bool holds_tets(const std::string& path);  ///< of the file of a path
 
 /// True when write_tets() knows the extension of `path`; otherwise the error (kNotAvailable) says
 /// which there are.
@@ -282,7 +283,7 @@ Result<void> check_tets_path(const std::string& path);
 /// check_tets_path(); kBadFile, with the path and the system's reason; kOutOfMemory.
 Result<void> write_tets(const std::string& path, const TetMesh& mesh);
 
-/// The same for write_distances() of a volume.
+/// Whether write_distances() of a volume knows the extension; the error says which there are.
 Result<void> check_tet_distances_path(const std::string& path);
 
 /// Writes one distance per vertex, in the order of the file, model units, infinite where unreached:
@@ -318,7 +319,7 @@ class PointCloud {
 /// How points become a surface.
 struct PointOptions {
   /// Nearest neighbours that each point is triangulated with, from 6 to 100. Fewer bridge narrower
-  /// gaps between sheets and along borders; more even out noise.
+  /// gaps between sheets and along boundaries; more even out noise.
   int neighbours = 30;
   /// Points whose normals are more than 120 degrees apart are never joined. For normals that all
   /// point to one side of their surface.
@@ -384,17 +385,16 @@ struct PointFile {
 /// Errors: one sentence, "PATH: line N: ..." or "PATH: byte N: ..." with the cause (kBadFile); an
 /// unknown extension (kNotAvailable); kOutOfMemory. Never throws. What a file announces is held
 /// against its size before memory is asked for. A file that others change while it is read is an
-/// error (kBadFile). Independent of the locale. Cost: a copy of the file in memory, and one pass
-/// over it.
+/// error (kBadFile). Independent of the locale. Cost: a copy of the file, and one pass over it.
 Result<PointFile> read_points(const ModelInput& input);
+/// Reads the points of a path, as ModelInput::open() takes it.
 Result<PointFile> read_points(const std::string& path);
 
-/// The names of the formats: ply, xyz, pts, pcd.
-std::vector<std::string> point_formats();
-/// Whether the file holds points without faces: by its extension, of a `.ply` by its header. A
-/// `.ply` whose header cannot be read is none. Errors (kBadFile): a `.ply` that cannot be opened.
-/// Cost: the header.
+std::vector<std::string> point_formats();  ///< ply, xyz, pts, pcd
+/// Whether the file holds points without faces: by its extension, of a `.ply` by its header, which
+/// is all that is read; false where that is damaged. Errors: kBadFile (a `.ply` that cannot be
+/// opened).
 Result<bool> is_point_file(const ModelInput& input);
-Result<bool> is_point_file(const std::string& path);
+Result<bool> is_point_file(const std::string& path);  ///< of the file of a path
 
 }  // namespace geotherm

@@ -35,16 +35,17 @@ struct Warning {
   bool operator==(const Warning&) const = default;
 };
 
-/// Those that have values: what a program can apply.
+/// The settings of a hint that have values: what a program can apply.
 std::vector<SettingHint> settings_of(const Hint& hint);
 
 /// The hint as words: a setting is its name, with `before_name` in front, and its values:
-/// "--boundary neumann or average" where that is "--".
+/// "boundary neumann or average" where that is empty.
 std::string hint_text(const Hint& hint, std::string_view before_name = {});
 
 /// "MESSAGE; HINT".
 std::string sentence(const std::string& message, const Hint& hint,
                      std::string_view before_name = {});
+/// The warning as "MESSAGE; HINT".
 std::string sentence(const Warning& warning, std::string_view before_name = {});
 
 /// Why an operation failed. The vocabulary is shared by files, backends and sub-commands.
@@ -80,13 +81,15 @@ struct Fallback {
 template <class T>
 class [[nodiscard]] Result {
  public:
-  /// Success, or failure.
+  /// Success.
   Result(T value)
       : state_(std::in_place_index<0>, std::move(value)) {}  // NOLINT: implicit on purpose
+  /// Failure.
   Result(Error error) : state_(std::in_place_index<1>, std::move(error)) {}  // NOLINT
 
   /// Whether it is a value.
   bool has_value() const { return state_.index() == 0; }
+  /// The same as has_value().
   explicit operator bool() const { return has_value(); }
 
   /// The value. Precondition: has_value().
@@ -99,7 +102,7 @@ class [[nodiscard]] Result {
   T* operator->() { return &value(); }
   const T* operator->() const { return &value(); }
 
-  /// Precondition: there is no value.
+  /// Why there is no value. Precondition: there is none.
   const Error& error() const { return assert(!has_value()), std::get<1>(state_); }
 
  private:
@@ -110,14 +113,16 @@ class [[nodiscard]] Result {
 template <>
 class [[nodiscard]] Result<void> {
  public:
+  /// Success.
   Result() = default;
   /// Failure.
   Result(Error error) : error_(std::move(error)) {}  // NOLINT: implicit on purpose
 
   /// Whether it is a success.
   bool has_value() const { return !error_; }
+  /// The same as has_value().
   explicit operator bool() const { return has_value(); }
-  /// Precondition: it is none.
+  /// Why it failed. Precondition: it is no success.
   const Error& error() const { return assert(error_), *error_; }
 
  private:

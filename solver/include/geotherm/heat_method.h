@@ -102,13 +102,14 @@ class HeatMethod final : public DistanceMethod {
 
   const HeatOptions& options() const;              ///< with the backend at work
   const std::vector<Fallback>& fallbacks() const;  ///< backends that failed before it
-  /// Diffusion time, model units squared. Rules that follow h or A/F follow those of each
-  /// component, times its Refinement::grading; then this is the time of the component with most
-  /// faces (of several, the first).
+  /// Diffusion time, model units squared. Rules that follow the mean edge h or the area over faces
+  /// A/F give each component a time of its own: m g h^2 or m g A/F, with the time factor m and g as
+  /// in grading(); then this is the time of the component with most faces (of several, the first).
   double t() const;
   double relative_t() const;  ///< the same in squares of that component's mean edge
-  /// Refinement::grading of that component: what relative_t() is with m = 1. 1/4 on grids with one
-  /// speed.
+  /// g = t / h^2 of that component at the time factor 1, where the time follows h: 1, but where
+  /// vertices are inserted or faces are too large for t = h^2, in tets that are many across, and on
+  /// grids with one speed (1/4).
   double grading() const;
   /// The least and the largest time of a component, model units squared.
   std::array<double, 2> t_range() const;
@@ -126,7 +127,7 @@ class HeatMethod final : public DistanceMethod {
   struct Fronts {
     Index all = 0, factored = 0;  ///< how many
   };
-  Fronts fronts() const;  ///< see there
+  Fronts fronts() const;  ///< of all factors of this method
   const std::vector<Warning>& warnings() const override;
   const HeatMethod* heat() const override { return this; }
 

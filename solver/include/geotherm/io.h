@@ -34,8 +34,8 @@ class ModelInput {
   /// a named pipe.
   static Result<ModelInput> open(const std::string& path, std::string_view format = {});
 
-  /// From an open descriptor, such as standard input (0), to its end. `name`: in place of the path,
-  /// in messages. Errors: the same.
+  /// Reads from an open descriptor, such as standard input (0), to its end. `name`: in place of the
+  /// path, in messages. Errors: the same.
   static Result<ModelInput> stream(int descriptor, const std::string& name,
                                    std::string_view format = {});
 
@@ -52,8 +52,8 @@ class ModelInput {
 /// All formats that models are read from, whatever they hold: extensions without their point.
 std::vector<std::string> model_formats();
 
-/// Those of triangle meshes: obj, ply, off, stl, gltf, glb, 3mf, dae, vtp, vtk, vtu, msh, mesh,
-/// meshb.
+/// The formats of triangle meshes: obj, ply, off, stl, gltf, glb, 3mf, dae, vtp, vtk, vtu, msh,
+/// mesh, meshb.
 std::vector<std::string> mesh_formats();
 
 /// Errors: kNotAvailable (none of model_formats()), with those that there are.
@@ -91,15 +91,18 @@ Result<MeshFile> read_mesh(const ModelInput& input);
 /// Reads a path, as ModelInput::open() takes it. Errors: those of both.
 Result<MeshFile> read_mesh(const std::string& path, std::string_view format = {});
 
-/// From an open stream, as ModelInput::stream() takes it. Errors: those of both.
-Result<MeshFile> read_mesh(int descriptor, std::string_view format, const std::string& name);
+/// A mesh of polygons as read from a file.
+struct PolygonFile {
+  PolygonMesh mesh;                ///< what it holds
+  std::vector<std::string> notes;  ///< one sentence each, for people
+};
 
-/// Reads the faces as they are; otherwise as read_mesh(), of formats that keep polygons. `notes`
-/// gets one sentence each, for people. Errors: those of read_mesh().
-Result<PolygonMesh> read_polygons(const ModelInput& input,
-                                  std::vector<std::string>* notes = nullptr);
-Result<PolygonMesh> read_polygons(const std::string& path, std::string_view format = {},
-                                  std::vector<std::string>* notes = nullptr);
+/// Reads the faces as they are; otherwise as read_mesh(), of formats that keep polygons. Errors:
+/// those of read_mesh().
+Result<PolygonFile> read_polygons(const ModelInput& input);
+
+/// Reads a path, as ModelInput::open() takes it. Errors: those of both.
+Result<PolygonFile> read_polygons(const std::string& path, std::string_view format = {});
 
 /// Numbers on the vertices or faces of a mesh, as files hold them beside the distances.
 struct DataField {
@@ -147,7 +150,7 @@ Result<void> write_distances(const std::string& path, const TriangleMesh& mesh,
 /// the extensions that do.
 Result<void> check_field(const std::string& path, const DataField& field);
 
-/// The same for write_mesh().
+/// Whether write_mesh() knows the extension of `path`; otherwise the error says which there are.
 Result<void> check_mesh_path(const std::string& path);
 
 /// Writes the mesh alone: `.obj`, `.ply` (binary), `.off` or `.stl` (binary), by extension.

@@ -24,17 +24,18 @@ inline constexpr std::string_view kSourcesStage = "sources";
 /// of the sets. An error ends the work.
 using AnswerSink = std::function<Result<void>(std::size_t set, DistanceResult&& answer)>;
 
-/// Source sets of a stream whose answers have quality figures, at most: a block of the heat method.
-inline constexpr std::size_t kSetsWithQuality = 16;
+/// Source sets that a method solves as one block, at most: the heat method reads its factors once
+/// for all of them, and their numbers at a vertex fill two of the widest registers.
+inline constexpr std::size_t kSetsInBlock = 16;
 
 /// How a stream of answers is cut into chunks.
 struct StreamOptions {
   /// Source sets solved by one call of solve_each(); >= 1. Two chunks of answers are in memory: one
-  /// that is solved, one that is taken. In multiples of sixteen the answers of the heat method have
-  /// the bits of one call for all sets, in other chunks they agree to round-off.
-  std::size_t chunk = 16;
+  /// that is solved, one that is taken. In multiples of kSetsInBlock the answers of the heat method
+  /// have the bits of one call for all sets, in other chunks they agree to round-off.
+  std::size_t chunk = kSetsInBlock;
   /// What each query computes beside the distances; the quality figures in the first chunk alone,
-  /// which has kSetsWithQuality sets at most: they tell whether mesh and options suit each other,
+  /// which has kSetsInBlock sets at most: they tell whether mesh and options suit each other,
   /// and would cost every answer a pass over the faces.
   QueryOptions query{};
 };
@@ -48,10 +49,9 @@ Result<void> stream_answers(const DistanceMethod& method, std::span<const Source
                             const StreamOptions& options, const AnswerSink& sink,
                             const Progress& progress = {});
 
-/// A good chunk: sixteen sets for each thread, which is what the heat method solves as one block,
-/// twice as many on small meshes, so that threads seldom wait for each other; fewer, but sixteen at
-/// least, where two chunks of answers would take more than half of `free_bytes` (empty:
-/// unknown). A multiple of sixteen.
+/// A good chunk: a block (kSetsInBlock) for each thread, or two on small meshes, so that threads
+/// seldom wait for each other; fewer, but one block at least, where two chunks of answers would
+/// take more than half of `free_bytes` (empty: unknown). A multiple of kSetsInBlock.
 /// `threads`: 0 for all cores.
 std::size_t good_chunk(Index vertices, int threads, std::optional<std::int64_t> free_bytes);
 

@@ -9,8 +9,8 @@
 // What a mesh is and what is wrong with it, before anything is solved.
 namespace geotherm {
 
-/// What a mesh is, in a few numbers. Edges, components and lengths are those of the faces the
-/// operators are built on (CleanFaces): no repeated corner, no face twice.
+/// What a mesh is, in a few numbers. Edges, components and lengths are those of the faces that
+/// the operators are built on: faces that repeat a corner or another face are left out.
 struct MeshSummary {
   Index vertices = 0, faces = 0;    ///< as in the file
   Index components = 0;             ///< sets of faces connected through shared vertices
@@ -70,7 +70,7 @@ struct MeshReport : MeshSummary {
 /// 4 sqrt(3) area / (sum of squared sides): 1 for an equilateral triangle, 0 for one without area.
 double triangle_quality(const std::array<Vec3, 3>& corners);
 
-/// The same bits with any number of threads. Cost: O(F).
+/// Summarises a mesh, with the same bits with any number of threads. Cost: O(F).
 MeshSummary summarize_mesh(const TriangleMesh& mesh, int threads = 1);
 
 /// Cost: O(F), several times that of the summary, and sorting the positions.

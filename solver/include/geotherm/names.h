@@ -45,6 +45,14 @@ std::vector<std::string> all_names() {
   return names;
 }
 
+/// Every value, the default first.
+template <Named Enum>
+std::vector<Enum> all_values() {
+  std::vector<Enum> values;
+  for (const auto& [each, name] : named_values(Enum{}).all) values.push_back(each);
+  return values;
+}
+
 /// Says that a text is none of the names.
 Error unknown_name(ErrorCode code, std::string_view unknown, std::string_view text,
                    const std::vector<std::string>& names);

@@ -135,7 +135,7 @@ struct HeatOptions {
   TimeStep time_step;               ///< the diffusion time
   Constraint constraint;            ///< of the Poisson equation
   HeatMode heat = HeatMode::kUnit;  ///< what diffuses
-  BoundaryRule boundary = BoundaryRule::kAuto;     ///< of the diffusion, along the border
+  BoundaryRule boundary = BoundaryRule::kAuto;     ///< of the diffusion, along the boundary
   LaplacianKind laplacian = LaplacianKind::kAuto;  ///< on which triangles
   Variant variant = Variant::kCorrected;           ///< how it is discretised
   Precision precision = Precision::kCompact;       ///< of the factors

@@ -78,15 +78,16 @@ struct FoundPath {
 /// Finds paths on one mesh. Immutable; several threads may ask at once.
 class PathFinder {
  public:
-  /// `method`: of the same mesh. The better it is, the surer a geodesic is the shortest of all
-  /// (search_geodesic()): those of MethodKind::kWavefront will do. Cost: O(F).
+  /// `method`: of the same mesh. Geodesics begin as streamlines of its distances and at vertices
+  /// whose distances say that a shorter path may pass there; so the better they are, the surer a
+  /// geodesic is the shortest of all. Those of MethodKind::kWavefront will do. Cost: O(F).
   PathFinder(std::shared_ptr<const TriangleMesh> mesh,
              std::shared_ptr<const DistanceMethod> method);
 
   /// The path through two points or more, in order. The geodesic from a to b is that from b to a.
   /// Errors: kBadInput (fewer points, one that is not on the mesh, no way from one to the next, a
-  /// heat field without the heat method), kOutOfMemory, those of DistanceMethod::solve() and
-  /// shorten(). Shares of the progress do not fall.
+  /// heat field without the heat method), kBudgetEnded (a path that does not become straight),
+  /// kOutOfMemory, those of DistanceMethod::solve(). Shares of the progress do not fall.
   /// Cost: a query of the method for each piece, or two for a geodesic, and milliseconds; the
   /// answers for the last two points are kept, so that paths from one point to many take one each.
   Result<FoundPath> find(std::span<const SurfacePoint> points, const PathOptions& options = {},
@@ -149,11 +150,7 @@ struct Isoline {
 /// Level sets of the function that is linear on each face. `values`: V, file order; faces with a
 /// value that is not finite have none. `levels`: ascending. Sorted by level, the longest first. The
 /// lines of a value that vertices have pass through these; no piece has length 0.
-/// Cost: O(F log levels + pieces). Throws std::bad_alloc; find_isolines() does not.
-std::vector<Isoline> trace_isolines(const TriangleMesh& mesh, std::span<const double> values,
-                                    std::span<const double> levels);
-
-/// The same. Errors: kOutOfMemory.
+/// Errors: kOutOfMemory. Cost: O(F log levels + pieces).
 Result<std::vector<Isoline>> find_isolines(const TriangleMesh& mesh, std::span<const double> values,
                                            std::span<const double> levels);
 

@@ -70,7 +70,7 @@ std::string_view format_of_xml(std::string_view start) {
   return start.find("ImageData") != start.npos ? "vti" : "vtu";
 }
 
-/// By the first word.
+/// Whether a text is OBJ, by its first word.
 bool is_obj(std::string_view text) {
   constexpr std::string_view kWords[] = {"v", "vn", "vt",     "f",      "o",
                                          "g", "s",  "mtllib", "usemtl", "vp"};

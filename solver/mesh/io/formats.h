@@ -21,7 +21,7 @@ struct ModelFormat {
 
 std::span<const ModelFormat> model_format_table();
 
-/// Those that may hold it, in the order of the table.
+/// The formats that may hold `what` (Holding), in the order of the table.
 std::vector<std::string> formats_holding(unsigned what);
 
 /// ".obj .ply", for messages.

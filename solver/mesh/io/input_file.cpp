@@ -274,7 +274,11 @@ FileBytes::FileBytes(const InputFile& file)
 
 Result<FileBytes> FileBytes::read(const std::string& path) {
   const auto file = InputFile::open(path);
-  if (!file) return file.error();
+  if (!file) {
+    Error error = file.error();
+    if (error.hint.empty()) error.hint = {"check the path"};
+    return error;
+  }
   try {
     FileBytes read(*file);
     if (auto same = file->check_unchanged(); !same) return same.error();

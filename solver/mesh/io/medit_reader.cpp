@@ -180,7 +180,7 @@ class MeshbScanner {
     return count;
   }
 
-  /// To where the next keyword stands.
+  /// Goes on reading at the byte at which the next keyword stands.
   void go_to(std::int64_t position) {
     if (position < p_ - bytes_.data() || static_cast<std::uint64_t>(position) > bytes_.size()) {
       fail("the next keyword is to stand at byte " + std::to_string(position));

@@ -115,7 +115,7 @@ class MixedScanner {
     return static_cast<std::size_t>(count);
   }
 
-  /// For the word or the value that was taken last.
+  /// Fails for a reason that lies in the word or the value that was taken last.
   [[noreturn]] void fail(const std::string& cause, Hint hint = {}) const {
     if (!binary_ || p_ == nullptr) words_.fail(cause, std::move(hint));
     std::string message = cause;

@@ -102,7 +102,7 @@ class PolygonCutter {
 class InputFile;
 
 RawMesh read_obj(std::string_view text);
-/// The same, and faster than by way of FileBytes.
+/// Reads an OBJ file, faster than by way of FileBytes.
 RawMesh read_obj(const InputFile& file);
 RawMesh read_off(std::string_view text);
 RawMesh read_ply(std::string_view bytes);
@@ -110,7 +110,7 @@ RawMesh read_stl(std::string_view bytes);
 
 /// What Assimp reads: glTF, 3MF, Collada. Files that a .gltf names are read from its folder alone.
 RawMesh read_scene(const InputFile& file);
-/// The same of bytes; `folder` as of read_scene_here(), `format`: "glb", ...
+/// Reads a scene from bytes; `folder` as of read_scene_here(), `format`: "glb", ...
 RawMesh read_scene(std::string_view bytes, std::string_view format, const std::string& folder);
 
 /// A file by its format, with its polygons as fans. Errors: those of read_mesh(), which throws

@@ -30,7 +30,7 @@ class SceneMotion {
   /// Puts all nodes where they are then.
   void set_time(double seconds);
 
-  /// From what a node places to the scene.
+  /// The transform from the frame of a node's meshes to that of the scene.
   const Eigen::Matrix4d& transform(const aiNode& node) const;
 
   /// Where the vertices of a mesh are, which a node places. `positions` is overwritten.

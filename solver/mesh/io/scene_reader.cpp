@@ -92,7 +92,7 @@ class FolderFiles : public Assimp::IOSystem {
 };
 
 [[noreturn]] void fail_in_assimp(const Assimp::BaseImporter& importer) {
-  constexpr std::size_t kMost = 160;
+  constexpr std::size_t kMaxLetters = 160;
   try {
     if (importer.GetException()) std::rethrow_exception(importer.GetException());
   } catch (const std::bad_alloc&) {
@@ -101,7 +101,7 @@ class FolderFiles : public Assimp::IOSystem {
     throw;
   } catch (...) {  // its text follows
   }
-  std::string text = printable(importer.GetErrorText().substr(0, kMost));
+  std::string text = printable(importer.GetErrorText().substr(0, kMaxLetters));
   if (text.empty()) text = "no reason is given";
   throw ReadFailure{"Assimp cannot read it: " + text};
 }
@@ -177,10 +177,10 @@ class SceneMesh {
     const aiMesh& mesh = *scene_.mMeshes[number];
     ++placed_;
     vertices_ += mesh.mNumVertices;
-    constexpr auto kMost = static_cast<std::size_t>(std::numeric_limits<Index>::max());
-    if (vertices_ > kMost || raw_.faces.size() + mesh.mNumFaces > kMost) {
+    constexpr auto kMaxIndex = static_cast<std::size_t>(std::numeric_limits<Index>::max());
+    if (vertices_ > kMaxIndex || raw_.faces.size() + mesh.mNumFaces > kMaxIndex) {
       throw ReadFailure{"the meshes, as often as they are placed, have more than " +
-                        std::to_string(kMost) + " vertices or faces"};
+                        std::to_string(kMaxIndex) + " vertices or faces"};
     }
     place(mesh, motion_.transform(node));
     FanBuilder fan(raw_.faces);

@@ -88,10 +88,9 @@ VtuEncoding read_vtk_file_tag(std::string_view bytes, const XmlTag& tag, std::st
                               Hint hint) {
   const std::string_view held = attribute(tag, "type").value_or("");
   if (held != type) {
-    fail_at_tag(
-        bytes, tag,
-        "the file holds " + quoted(held, held.data()) + " instead of an " + std::string(type),
-        std::move(hint));
+    fail_at_tag(bytes, tag,
+                "the file holds " + quoted(held, held.data()) + ", not " + std::string(type),
+                std::move(hint));
   }
   VtuEncoding encoding;
   if (attribute(tag, "byte_order") == "BigEndian") encoding.order = std::endian::big;
