@@ -180,7 +180,8 @@ void add_compare_options(CLI::App& command, CompareArguments& arguments) {
                   "in each run.\n"
                   "Errors are those of the first ") +
       std::to_string(kErrorQueries) +
-      " queries against exact distances, or wavefront-fine on large meshes.\n"
+      " queries, against the best method that fits: exact, on large meshes "
+      "wavefront-fine, in volumes, on polygons and grids fast-marching.\n"
       "Examples:\n  geotherm compare bunny terrain --backends all --csv table.csv\n"
       "  geotherm compare bunny --backends all,wavefront,fast-marching,exact");
 }

@@ -171,7 +171,8 @@ Result<void> move_samples(const SampleTask& task, const ReadyMethod& by, const P
 }
 
 /// Moves the samples, by near-exact distances where those of the method know no nearest sample, and
-/// checks the distances from where they are then, which are those that are written.
+/// checks the distances from where they are then, which are those that are written. Where these are
+/// replaced by better ones, the samples move by those.
 Result<void> relax(const SampleTask& task, ModelSolver& solver, const ReadyMethod& ready,
                    const Progress& progress, SampleFigures& figures) {
   ReadyMethod by = ready;
@@ -181,19 +182,23 @@ Result<void> relax(const SampleTask& task, ModelSolver& solver, const ReadyMetho
     if (!better) return better.error();
     by = *std::move(better);
   }
-  if (auto moved = move_samples(task, by, part_of(progress, 0.1, 0.7), figures); !moved) {
-    return moved;
+  for (double from = 0.1;;) {
+    const double moved = from + 0.6 * (1 - from), checked = from + 0.9 * (1 - from);
+    if (auto done = move_samples(task, by, part_of(progress, from, moved), figures); !done) {
+      return done;
+    }
+    if (task.check.against == Check::kOff) return {};
+    std::vector<SourceSet> sets(figures.relaxed->points.size());
+    for (std::size_t i = 0; i < sets.size(); ++i) sets[i].points = {figures.relaxed->points[i]};
+    auto check = solver.check_method(by, sets, task.check, part_of(progress, moved, checked));
+    if (!check) return check.error();
+    figures.error = std::move(check->error);
+    std::ranges::move(check->warnings, std::back_inserter(figures.warnings));
+    if (!check->replaced) return {};
+    figures.replaced = std::move(check->replaced);
+    by = check->by;
+    from = checked;
   }
-  if (task.check.against == Check::kOff) return {};
-  std::vector<SourceSet> sets(figures.relaxed->points.size());
-  for (std::size_t i = 0; i < sets.size(); ++i) sets[i].points = {figures.relaxed->points[i]};
-  auto checked = solver.check_method(by, sets, task.check, part_of(progress, 0.7, 0.9));
-  if (!checked) return checked.error();
-  figures.error = std::move(checked->error);
-  figures.warnings = std::move(checked->warnings);
-  if (!checked->replaced) return {};
-  figures.replaced = std::move(checked->replaced);
-  return move_samples(task, checked->by, part_of(progress, 0.9, 1), figures);
 }
 
 /// Samples a loaded model. All ranks; the first alone checks and relaxes.
@@ -231,6 +236,9 @@ Result<SampleFigures> sample(Model model, const SettingArguments& arguments, con
   if (relaxes) {
     const auto done = relax(task, solver, *ready, part_of(progress, sampled, 1), figures);
     if (!done) return done.error();
+  }
+  if (figures.error && !figures.error->report.measured && !figures.error->report.failed) {
+    figures.error->report.advice.clear();  // it names --check, which sample has not
   }
   const auto add_warnings = [&figures](const std::vector<Warning>& more) {
     figures.warnings.insert(figures.warnings.end(), more.begin(), more.end());

@@ -22,6 +22,7 @@
 #include "app/session/wording.h"
 #include "app/text/text.h"
 #include "solver/core/text.h"
+#include "solver/mesh/io/mask_numbers.h"
 
 namespace geotherm::app {
 namespace {
@@ -116,10 +117,11 @@ void remember_named_files(const CLI::App& command) {
   for (const CLI::Option* option : command.get_options()) {
     if (option->get_type_name() == "TEXT") continue;
     const std::string name = option->get_name();
-    const std::string called =
-        option->get_positional() ? "the model itself" : "the file of " + name;
+    const bool is_model = option->get_positional() && name.starts_with("MODEL");
+    const std::string called = is_model ? "the model itself" : "the file of " + name;
     for (const std::string& value : option->results()) {
-      for (const FileId& id : files_named(value)) named.push_back({id, called, name});
+      const std::string path = name == "--mask" ? io::parse_mask_text(value).path : value;
+      for (const FileId& id : files_named(path)) named.push_back({id, called, name});
     }
   }
   remember_files(std::move(named));

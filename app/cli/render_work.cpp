@@ -32,7 +32,7 @@ Result<void> draw_field(const std::string& path, const Model& model,
   const auto field = read_vertex_field(path, model);
   if (!field) return about("--field", field.error());
   if (std::ranges::none_of(field->values, [](double x) { return std::isfinite(x); })) {
-    return Error{ErrorCode::kBadInput,
+    return Error{ErrorCode::kBadFile,
                  "--field: none of the " + counted(std::ssize(field->values), "value", "values") +
                      " of " + io::printable(path) + " is a finite number",
                  {"give one that has some"}};

@@ -59,11 +59,18 @@ const char* counted_in(std::span<const CompareRow> rows) {
 
 /// Of which queries the errors are; empty where none was measured.
 std::string error_line(std::span<const CompareRow> rows) {
-  const auto row = std::ranges::max_element(rows, {}, &CompareRow::error_queries);
-  if (row == rows.end() || row->error_queries == 0) return {};
-  const auto count = static_cast<std::int64_t>(row->error_queries);
-  return "errors are of the first " + counted(count, "query", "queries") + ", against " +
-         to_text(row->error_reference);
+  std::size_t count = 0;
+  std::vector<std::string> references;
+  for (const CompareRow& row : rows) {
+    if (row.error_queries == 0) continue;
+    count = std::max(count, row.error_queries);
+    const std::string reference = one_line(row.model) + " against " + to_text(row.error_reference);
+    if (std::ranges::count(references, reference) == 0) references.push_back(reference);
+  }
+  if (count == 0) return {};
+  return "errors are of the first " +
+         counted(static_cast<std::int64_t>(count), "query", "queries") + ", of " +
+         joined(references);
 }
 
 std::string cell(const std::optional<double>& value) { return value ? milliseconds(*value) : "-"; }
@@ -204,7 +211,7 @@ std::string compare_html(const Machine& machine, std::span<const CompareRow> row
       "scale.</p>\n" +
       times_chart(rows);
   out += "<h2>Figures</h2>\n<p>Differences are relative to the reference's largest distance" +
-         (error_line(rows).empty() ? std::string() : "; " + error_line(rows)) +
+         (error_line(rows).empty() ? std::string() : "; " + escaped(error_line(rows))) +
          ".</p>\n"
          "<div class=scroll><table><thead><tr><th class=name>model</th><th>" +
          std::string(counted_in(rows)) +

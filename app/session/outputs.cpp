@@ -80,13 +80,7 @@ std::vector<FileId> files_named(const std::string& text) {
   const auto add = [&found](const std::string& path) {
     if (const auto id = id_of(path)) found.push_back(*id);
   };
-  for (std::size_t from = 0; from < text.size(); from = text.find(':', from) + 1) {
-    const std::string rest = text.substr(from);
-    add(rest);
-    const std::size_t last = rest.rfind(':');
-    if (last == std::string::npos) break;
-    add(rest.substr(0, last));
-  }
+  add(text);
   const auto numbered = NumberedPath::parse(text);
   if (!numbered) return found;
   const fs::path form(text), folder = form.has_parent_path() ? form.parent_path() : ".";
@@ -141,7 +135,9 @@ Result<void> Outputs::expect(const std::string& path, std::string_view option) {
                  {"give each output a place of its own"}};
   }
   if (path != "-") {
-    if (auto place = check_place(path); !place) return place;
+    if (auto place = check_place(fs::is_symlink(path, unknown) ? resolved : path); !place) {
+      return place;
+    }
     if (const std::string called = called_input(path, option); !called.empty()) {
       return Error{ErrorCode::kBadInput,
                    std::string(option) + ": " + one_line(path) + " is " + called,

@@ -24,8 +24,8 @@ struct InputFile {
   std::string option = {};  ///< what it was given to, "--mask"; empty: none
 };
 
-/// The files that `text` names: a path, a path between colons, as in keep:FILE, or all files that
-/// there are of a name such as frame_%04d.obj. None where nothing is called so.
+/// The files that `text` names: a path, or all files that there are of a name such as
+/// frame_%04d.obj. None where nothing is called so.
 std::vector<FileId> files_named(const std::string& text);
 
 /// What the command line names, in any of its options: expect() refuses it to every other option.

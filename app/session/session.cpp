@@ -43,7 +43,7 @@ std::optional<ExplorePart> changed_part(const Command& command) {
   if (is_any_of<command::Sculpt, command::ExtendStroke>(command)) return kStrokes;
   if (is_any_of<command::ShowField>(command)) return kField;
   if (is_any_of<command::Target, command::ShowCentre, command::Pick>(command)) return kTarget;
-  if (is_any_of<command::Keep, command::Swap, command::MaxDistance>(command)) return kMethod;
+  if (is_any_of<command::Keep, command::MaxDistance>(command)) return kMethod;
   if (is_any_of<command::SetSources, command::AddSources, command::MoveSource,
                 command::RemoveSource, command::ExtendCurve, command::MoreSources,
                 command::FewerSources, command::ShuffleSources>(command)) {
@@ -89,6 +89,7 @@ void Session::State::step_back(std::vector<ViewerState>& from, std::vector<Viewe
 }
 
 Result<void> Session::State::perform(const Command& command, const Session& session, Giver giver) {
+  note_asked(command);
   if (std::holds_alternative<command::Undo>(command)) {
     if (undo.empty()) return Error{ErrorCode::kBadInput, "there is nothing to undo"};
     step_back(undo, redo);
@@ -127,7 +128,6 @@ Result<void> Session::State::perform(const Command& command, const Session& sess
   if (std::holds_alternative<command::Pick>(command)) {
     if (auto there = check_picked(*next); !there) return there;
   }
-  note_asked(command);
   if (std::holds_alternative<command::Open>(command)) {
     if (!before_opening) before_opening = Before{state, opening, undo, redo};
     opening = ++last_opening;
@@ -152,26 +152,41 @@ Result<void> Session::State::perform(const Command& command, const Session& sess
   return {};
 }
 
-/// Keeps which line of a script has asked for what is not worked out yet.
+/// Keeps which lines of scripts have asked for what is not worked out yet.
 void Session::State::note_asked(const Command& command) {
   const auto part = changed_part(command);
-  if (!part) return;
-  if (*part == ExplorePart::kModel) asked.clear();
-  std::erase_if(asked, [&part](const Asked& each) { return each.part == *part; });
-  if (!line_at_work.empty()) asked.push_back({*part, line_at_work});
+  const bool any = is_any_of<command::Undo, command::Redo, command::Reset, command::Swap>(command);
+  if (!part && !any) return;
+  // What people ask for besides may be at fault, too: then no line is named.
+  if (any || !at_work || is_any_of<command::Open>(command)) asked.clear();
+  if (is_any_of<command::SetSources, command::ShowField, command::Target>(command)) {
+    std::erase_if(asked, [&part](const Asked& each) { return each.part == part; });
+  }
+  if (at_work) asked.push_back({part, *at_work});
 }
 
-/// The line of a script that asked for what failed. Empty: no script did, or its line is said
-/// anyway, where it ends.
-std::string Session::State::line_to_blame(ExplorePart part) const {
+/// Where in a script what failed was asked for, "FILE: line 3" or "FILE: lines 3 to 5" where any of
+/// them may be at fault. Empty: in none, or its line is said anyway, where it ends.
+std::string Session::State::lines_to_blame(ExplorePart part) const {
   using enum ExplorePart;
-  std::string line;
-  if (!line_at_work.empty()) return line;
-  for (const Asked& each : asked) {  // not each method takes each source
-    const bool is_it = each.part == part || (part == kMethod && each.part == kSources);
-    if (is_it || (line.empty() && each.part == kModel)) line = each.line;
-  }
-  return line;
+  if (at_work) return {};
+  const auto lines_of = [this](auto&& concerns) {
+    std::vector<Place> lines;
+    for (const Asked& each : asked) {
+      if (!each.part || concerns(*each.part)) lines.push_back(each.at);
+    }
+    return lines;
+  };
+  // Not each method takes each source.
+  auto lines = lines_of(
+      [part](ExplorePart each) { return each == part || (part == kMethod && each == kSources); });
+  if (lines.empty()) lines = lines_of([](ExplorePart each) { return each == kModel; });
+  if (lines.empty()) return {};
+  const Place &first = lines.front(), &last = lines.back();
+  if (first.number == last.number && first.script == last.script) return first.text();
+  if (first.script != last.script) return first.text() + " to " + last.text();
+  return first.script + ": lines " + std::to_string(first.number) + " to " +
+         std::to_string(last.number);
 }
 
 /// Whether the model has the face that is picked, as far as it is known.
@@ -249,11 +264,11 @@ void Session::State::pump(const Session& session) {
     const auto [name, line] = std::move(script.front());
     script.pop_front();
     if (line.unseen && hooks.seen) continue;  // a window has its own size and letters
-    line_at_work = name + ": line " + std::to_string(line.number);
+    at_work = Place{name, line.number};
     const auto done = submit(line.command, session, Giver::kScript);
     if (!done && !first_error) first_error = done.error();
-    if (first_error) first_error = about(line_at_work, *first_error);
-    line_at_work.clear();
+    if (first_error) first_error = about(at_work->text(), *first_error);
+    at_work.reset();
   }
   if (script.empty()) scripts_run = 0;
   refresh();

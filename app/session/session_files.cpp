@@ -13,6 +13,7 @@
 #include "app/session/settings.h"
 #include "app/text/text.h"
 #include "geotherm/io.h"
+#include "solver/mesh/io/mask_numbers.h"
 
 namespace geotherm::app {
 namespace {
@@ -122,9 +123,9 @@ std::string session_text(const ViewerState& state) {
 Outputs outputs_beside(const ViewerState& state) {
   Outputs outputs;
   if (!is_bundled(state.model)) outputs.protect(state.model, "the model itself");
-  outputs.protect(state.timeline.sequence, "of the sequence itself");
+  outputs.protect(state.timeline.sequence, "a frame of the sequence");
   outputs.protect(state.field, "the field itself");
-  outputs.protect(state.reading.mask, "the mask itself");
+  outputs.protect(io::parse_mask_text(state.reading.mask).path, "the mask itself");
   return outputs;
 }
 

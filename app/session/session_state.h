@@ -73,7 +73,7 @@ struct Session::State {
   Result<void> run_script(const std::string& path);
   void pump(const Session& session);
   void note_asked(const Command& command);
-  std::string line_to_blame(ExplorePart part) const;
+  std::string lines_to_blame(ExplorePart part) const;
   Result<void> check_picked(const ViewerState& next) const;
   void step_back(std::vector<ViewerState>& from, std::vector<ViewerState>& to);
   void note(LogLine::Kind kind, std::string text, Hint hint = {});
@@ -120,12 +120,17 @@ struct Session::State {
   std::string failure;
   std::optional<Error> first_error;
   std::deque<std::pair<std::string, ScriptLine>> script;  ///< where from, what
-  std::string line_at_work;  ///< of a script: "FILE: line 3"; empty: none
-  struct Asked {
-    ExplorePart part;
-    std::string line;
+  struct Place {
+    std::string script;
+    int number = 0;
+    std::string text() const { return script + ": line " + std::to_string(number); }
   };
-  std::vector<Asked> asked;  ///< by which lines, in their order, since the last answer
+  std::optional<Place> at_work;  ///< the line of a script that is performed now
+  struct Asked {
+    std::optional<ExplorePart> part;  ///< none: it may have changed any
+    Place at;
+  };
+  std::vector<Asked> asked;  ///< in their order, since the last answer
   int scripts_run = 0;
   std::set<std::string> saved_by_scripts;  ///< full paths, without links
   std::uint64_t opening = 0, last_opening = 0;

@@ -224,7 +224,7 @@ Hint slope_hint(const HeatOptions& options, double unit_t, const CellCounts& cel
   if (is_cut_off(options, cells)) return other_boundary_rule();
   if (unit_t > 1) return time_hint("use a smaller ", options.time_step.rule);
   if (is_extreme_time(unit_t)) return time_hint("raise ", options.time_step.rule);
-  // What is no mesh of faces, such as a grid, has no finer one at hand.
+  // Cells that are no faces, those of grids, volumes and polygons, are not refined by the program.
   if (cell_names != "faces") return {"use ", SettingHint{"method", {"wavefront"}}};
   return {"refine the mesh"};
 }

@@ -46,8 +46,12 @@ Result<void> one_given_at_each(std::span<const Index> vertices, std::span<const 
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const auto [known, is_new] = first.try_emplace(rows[i], i);
     if (is_new || same(known->second, i)) continue;
+    const Index a = vertices[known->second], b = vertices[i];
     return Error{ErrorCode::kBadInput,
-                 "vertex " + std::to_string(vertices[i]) + " was given two different " + what,
+                 (a == b ? "vertex " + std::to_string(a) + " was"
+                         : "vertices " + std::to_string(a) + " and " + std::to_string(b) +
+                               ", which are one, were") +
+                     " given two different " + what,
                  {"give one for each vertex"}};
   }
   return {};

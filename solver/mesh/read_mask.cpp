@@ -20,13 +20,6 @@
 
 namespace geotherm {
 namespace io {
-namespace {
-
-/// What the words in front of and behind a file's name say.
-struct MaskText {
-  bool keeps = false, of_faces = false;
-  std::string path, property;
-};
 
 MaskText parse_mask_text(std::string text) {
   MaskText out;
@@ -45,6 +38,8 @@ MaskText parse_mask_text(std::string text) {
   if (named) out.property = text.substr(colon + 1);
   return out;
 }
+
+namespace {
 
 MaskNumbers numbers_in_text(std::string_view text) {
   MaskNumbers out;

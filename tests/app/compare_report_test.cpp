@@ -49,8 +49,12 @@ TEST(CompareReports, SayOfHowManyQueriesTheErrorsAre) {
   EXPECT_EQ(compare_table(kMachine, some).find("errors are of"), std::string::npos);
   some[0].mean_error = some[0].max_error = 0.01;
   some[0].error_queries = 3;
-  const std::string said = "errors are of the first 3 queries, against exact";
-  EXPECT_NE(compare_table(kMachine, some).find(said), std::string::npos);
+  const std::string said = "errors are of the first 3 queries, of ";
+  some[1].error_queries = 3;
+  some[1].error_reference = MethodKind::kFastMarching;
+  EXPECT_NE(compare_table(kMachine, some)
+                .find(said + "a\"b<c>,d against exact, a\"b<c>,d against fast-marching"),
+            std::string::npos);
   EXPECT_NE(compare_html(kMachine, some).find(said), std::string::npos);
   EXPECT_EQ(nlohmann::json::parse(compare_json(kMachine, some))["rows"][0]["error_queries"], 3);
 }

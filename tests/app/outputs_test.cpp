@@ -122,15 +122,20 @@ TEST(OutputFiles, AreFoundToBeInputsHoweverThoseAreNamed) {
     outputs.protect(input, "the input");
     return !outputs.expect(folder.path(output), "-o");
   };
-  for (const std::string& input :
-       {mask, "keep:" + mask, mask + ":keep", "faces:" + mask + ":kept"}) {
-    EXPECT_TRUE(refuses(input, "mask.ply")) << input;
-    EXPECT_TRUE(refuses(input, "hard.ply")) << input;
-    EXPECT_FALSE(refuses(input, "f_12.obj")) << input;
-  }
+  EXPECT_TRUE(refuses(mask, "mask.ply"));
+  EXPECT_TRUE(refuses(mask, "hard.ply"));
+  EXPECT_FALSE(refuses(mask, "f_12.obj"));
   EXPECT_TRUE(refuses(folder.path("f_%04d.obj"), "f_0012.obj"));
   EXPECT_FALSE(refuses(folder.path("f_%04d.obj"), "f_12.obj")) << "no frame: too few digits";
   EXPECT_FALSE(refuses(folder.path("f_%04d.obj"), "f_0013.obj")) << "there is none";
+}
+
+TEST(OutputFiles, BehindALinkIntoNoFolderAreRefusedBeforeTheWork) {
+  const TemporaryDirectory folder;
+  std::filesystem::create_symlink(folder.path("none/x.csv"), folder.path("link.csv"));
+  const auto refused = Outputs().expect(folder.path("link.csv"), "-o");
+  ASSERT_FALSE(refused);
+  EXPECT_NE(refused.error().message.find("there is no folder"), std::string::npos);
 }
 
 TEST(OutputFiles, OfOneOptionAreNotThoseOfAnother) {

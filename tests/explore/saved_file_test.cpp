@@ -185,6 +185,10 @@ TEST_F(SavedFile, OfCommandsSaysTheLineWhoseWorkFails) {
       {open + "# a comment\nfield nosuch.npy\nview contours\n", "line 3: "},
       {open + "source set 5\nsculpt pull 0.1 0.5 face:99999:1:0:0\nsource set 7\n",
        "line 3: there is no face 99999 to sculpt"},
+      {open + "source set 999999\nweld 0\n", "line 2: source 999999: there is no"},
+      {open + "source add 999999\nsource add 7\n", "lines 2 to 3: source 999999: there is no"},
+      {open + "source set 999999\nsource set 5\nundo\n", "line 4: source 999999: there is no"},
+      {open + "source set 5@0.5\nmethod heat\nazimuth 30\n", "lines 2 to 3: "},
       {open + "source set 5\npick face:99999:1:0:0\nview flat\n",
        "line 3: pick: there is no face 99999; faces are 0 to "},
   };

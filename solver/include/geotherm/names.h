@@ -45,7 +45,7 @@ std::vector<std::string> all_names() {
   return names;
 }
 
-/// Every value, the default first.
+/// Every value, in the order of named_values().
 template <Named Enum>
 std::vector<Enum> all_values() {
   std::vector<Enum> values;

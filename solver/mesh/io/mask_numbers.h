@@ -7,6 +7,13 @@
 
 namespace geotherm::io {
 
+/// What the words in front of and behind the name of a mask's file say: "keep:faces:FILE.ply:SEEN".
+struct MaskText {
+  bool keeps = false, of_faces = false;
+  std::string path, property;
+};
+MaskText parse_mask_text(std::string text);
+
 /// The numbers of a mask.
 struct MaskNumbers {
   std::vector<double> values;
