@@ -9,7 +9,7 @@
 #include "geotherm/polyhedral_methods.h"
 #include "solver/core/parallel.h"
 #include "solver/grid/grid_marching.h"
-#include "solver/heat/peak_memory.h"
+#include "solver/heat/factor_memory.h"
 #include "solver/method/mapped_method.h"
 #include "solver/polyhedral/wave_surface.h"
 #include "solver/volume/tet_marching_method.h"

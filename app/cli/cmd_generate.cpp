@@ -161,7 +161,7 @@ Result<CommandOutput> generate_frames(const GenerateArguments& arguments, Index 
 void add_generate_options(CLI::App& command, GenerateArguments& arguments) {
   command
       .add_option("NAME", arguments.name,
-                  "a bundled model (geotherm models), or a volume: box-tets, ball-tets")
+                  "a bundled model (geotherm models), or a volume: " + joined(volume_names()))
       ->required()
       ->type_name("");
   command.add_option("--faces", arguments.faces, "about so many; default: the model's usual size")
@@ -190,10 +190,10 @@ Result<CommandOutput> run_generate(const GenerateArguments& arguments, const Pro
   if (!arguments.tets.empty()) {
     return Error{ErrorCode::kBadInput,
                  "--tets is of volumes, and " + one_line(arguments.name) + " is none",
-                 {"there are box-tets, ball-tets"}};
+                 {"there are " + joined(volume_names())}};
   }
   if (!is_bundled(arguments.name)) {
-    std::vector<std::string> known = {"box-tets", "ball-tets"};
+    std::vector<std::string> known = volume_names();
     for (const BundledModel& model : bundled_models()) known.emplace_back(model.name);
     return Error{ErrorCode::kNotAvailable,
                  "there is no model '" + one_line(arguments.name) + "' to be generated",

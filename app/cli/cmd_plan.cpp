@@ -14,7 +14,7 @@
 #include "geotherm/io.h"
 #include "geotherm/many.h"
 #include "solver/distributed/mesh_block.h"
-#include "solver/heat/peak_memory.h"
+#include "solver/heat/factor_memory.h"
 
 namespace geotherm::app {
 namespace {

@@ -151,8 +151,9 @@ std::string sample_table(const SampleFigures& f) {
       counted(static_cast<std::int64_t>(points.samples.size()), "sample", "samples");
   figures.add_row(
       {"model", one_line(f.model.name) + ", " + counted(f.mesh.vertices, "vertex", "vertices")});
-  figures.add_row({"radius", std::isfinite(f.radius())
-                                 ? significant(f.radius()) +
+  const double radius = f.radius();
+  figures.add_row({"radius", std::isfinite(radius)
+                                 ? significant(radius) +
                                        ": every vertex of a face lies that near to one of " + count
                                  : "infinite: " + count + " for " +
                                        counted(f.mesh.components, "component", "components")});

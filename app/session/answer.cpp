@@ -70,6 +70,10 @@ void describe_space(const Model& model, MeshReport& mesh) {
   }
 }
 
+namespace {
+
+/// Whether the setting `weld` joins some of a mesh's components, as words; else empty.
+/// `components`: how many there are. Cost: a weld and a pass over the faces.
 Hint weld_hint(const TriangleMesh& mesh, Index components) {
   if (components < 2 || !mesh.same_as().empty()) return {};
   const auto welded = weld(mesh, 0);
@@ -79,6 +83,8 @@ Hint weld_hint(const TriangleMesh& mesh, Index components) {
   return {SettingHint{"weld", {"0"}}, " joins vertices that lie on each other, which leaves " +
                                           counted(left, "component", "components")};
 }
+
+}  // namespace
 
 std::vector<Warning> unreached_notes(const MeshSummary& mesh, Index unreached,
                                      const TriangleMesh* whole) {

@@ -58,10 +58,6 @@ void describe_space(const Model& model, MeshSummary& mesh);
 /// And its box.
 void describe_space(const Model& model, MeshReport& mesh);
 
-/// Whether the setting `weld` joins some of a mesh's components, as words; else empty.
-/// `components`: how many there are. Cost: a weld and a pass over the faces.
-Hint weld_hint(const TriangleMesh& mesh, Index components);
-
 /// One sentence for each reason why `unreached` vertices of a surface have no distance. `whole`:
 /// the mesh, for the hint that welding joins its components; null where that is not looked for.
 std::vector<Warning> unreached_notes(const MeshSummary& mesh, Index unreached,

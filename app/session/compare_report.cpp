@@ -210,8 +210,9 @@ std::string compare_html(const Machine& machine, std::span<const CompareRow> row
       "<h2>Time</h2>\n<p>Pre-factorisation (blue) and median solve (orange), on a logarithmic "
       "scale.</p>\n" +
       times_chart(rows);
+  const std::string errors = error_line(rows);
   out += "<h2>Figures</h2>\n<p>Differences are relative to the reference's largest distance" +
-         (error_line(rows).empty() ? std::string() : "; " + escaped(error_line(rows))) +
+         (errors.empty() ? errors : "; " + escaped(errors)) +
          ".</p>\n"
          "<div class=scroll><table><thead><tr><th class=name>model</th><th>" +
          std::string(counted_in(rows)) +

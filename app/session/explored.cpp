@@ -41,10 +41,10 @@ std::optional<double> time_in_volume(const TimeStep& step, const HeatMethod* hea
   if (step.rule == TimeRule::kAbsolute) return step.absolute;
   if (heat == nullptr || heat->t_range()[0] < heat->t_range()[1]) return std::nullopt;
   const TimeStep& known = heat->options().time_step;
-  if (step.rule != TimeRule::kMeanEdge && step.rule != known.rule) return std::nullopt;
-  ComponentSize size{.mean_edge = std::sqrt(heat->t() / heat->relative_t()), .cells = 1};
+  if (step.rule == known.rule) return heat->t() / known.factor * step.factor;
+  if (step.rule != TimeRule::kMeanEdge) return std::nullopt;
+  ComponentSize size{.mean_edge = std::sqrt(heat->t() / heat->relative_t())};
   size.grading = heat->grading();
-  size.area = heat->t() / known.factor / size.grading;  // read where that rule gave the time
   return geotherm::diffusion_time(size, 1, step);
 }
 

@@ -12,7 +12,7 @@
 #include "geotherm/heat_method.h"
 #include "geotherm/options.h"
 #include "solver/core/text.h"
-#include "solver/heat/peak_memory.h"
+#include "solver/heat/factor_memory.h"
 
 namespace geotherm::app {
 namespace {

@@ -157,6 +157,12 @@ constexpr VolumeMaker kVolumeMakers[] = {{"box-tets", make_box_of}, {"ball-tets"
 
 }  // namespace
 
+std::vector<std::string> volume_names() {
+  std::vector<std::string> names;
+  for (const VolumeMaker& maker : kVolumeMakers) names.emplace_back(maker.name);
+  return names;
+}
+
 bool is_volume_name(std::string_view name) {
   return std::ranges::find(kVolumeMakers, name, &VolumeMaker::name) != std::end(kVolumeMakers);
 }

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <string>
 #include <string_view>
+#include <vector>
 
 #include "geotherm/domains.h"
 #include "geotherm/error.h"
@@ -12,7 +14,9 @@ namespace geotherm {
 inline constexpr Index kMinVolumeTets = 100;
 inline constexpr Index kMaxVolumeTets = 20'000'000;
 
-/// Whether it is box-tets or ball-tets.
+/// The names of the volumes: box-tets, ball-tets.
+std::vector<std::string> volume_names();
+/// Whether it is one of them.
 bool is_volume_name(std::string_view name);
 
 /// Makes a volume of about so many tetrahedra, all positive, none flat, the same on every run:

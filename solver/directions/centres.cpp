@@ -358,11 +358,11 @@ Result<Centres> centres_on(const std::shared_ptr<const TriangleMesh>& mesh,
 
 /// The exponent of the mesh's size where squares of lengths may leave the range of doubles, else 0.
 int extreme_exponent(const TriangleMesh& mesh) {
-  constexpr int kUsual = 300, kMost = 1000;  // squares go to 1023
+  constexpr int kUsual = 300, kMax = 1000;  // squares go to 1023
   double most = 0;
   for (const Vec3& p : mesh.positions()) most = std::max(most, p.cwiseAbs().maxCoeff());
   const int exponent = most > 0 ? std::ilogb(most) : 0;
-  return std::abs(exponent) > kUsual ? std::clamp(exponent, -kMost, kMost) : 0;
+  return std::abs(exponent) > kUsual ? std::clamp(exponent, -kMax, kMax) : 0;
 }
 
 }  // namespace

@@ -148,12 +148,12 @@ void remove_abandoned(const std::string& target) {
 }  // namespace
 
 std::string end_of_links(const std::string& path) {
-  constexpr int kMostLinks = 40;
+  constexpr int kMaxLinks = 40;
   std::error_code unresolved;
   fs::path end = fs::weakly_canonical(path, unresolved);
   if (unresolved) return path;
   // Links to what is not there yet stand in it as they are.
-  for (int i = 0; i < kMostLinks && fs::is_symlink(end, unresolved); ++i) {
+  for (int i = 0; i < kMaxLinks && fs::is_symlink(end, unresolved); ++i) {
     const fs::path next = end.parent_path() / fs::read_symlink(end, unresolved);
     if (unresolved) break;
     end = fs::weakly_canonical(next, unresolved);

@@ -272,13 +272,14 @@ FileBytes::FileBytes(const InputFile& file)
   });
 }
 
+Error with_path_hint(Error error) {
+  if (error.hint.empty()) error.hint = {"check the path"};
+  return error;
+}
+
 Result<FileBytes> FileBytes::read(const std::string& path) {
   const auto file = InputFile::open(path);
-  if (!file) {
-    Error error = file.error();
-    if (error.hint.empty()) error.hint = {"check the path"};
-    return error;
-  }
+  if (!file) return with_path_hint(file.error());
   try {
     FileBytes read(*file);
     if (auto same = file->check_unchanged(); !same) return same.error();

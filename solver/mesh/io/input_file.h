@@ -103,6 +103,9 @@ class InputFile {
   std::shared_ptr<const RawVector<char>> held_;  ///< with the padding; null: the file has the bytes
 };
 
+/// The error of a file that does not open, with something to do about it in any case.
+Error with_path_hint(Error error);
+
 /// A file as a whole in memory.
 ///
 /// Behind the last byte at least kPadding zero bytes can be read, so a scanner needs no end test
