@@ -14,6 +14,9 @@ if(GEOTHERM_SANITIZE)
       # aligned, large enough, of that class, still an address) take a third of the time to build; the
       # fuzzers (clang) make them.
       add_compile_options(-fno-sanitize=null,alignment,object-size,vptr,pointer-overflow)
+      # So does marking each local as gone where its block ends. Functions that have returned are
+      # watched (ASAN_OPTIONS), and the fuzzers watch the blocks.
+      add_compile_options(-fno-sanitize-address-use-after-scope)
     endif()
   endif()
 endif()

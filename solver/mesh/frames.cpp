@@ -15,6 +15,7 @@
 #include "solver/core/text.h"
 #include "solver/mesh/io/formats.h"
 #include "solver/mesh/io/frame_array.h"
+#include "solver/mesh/io/input_file.h"
 #include "solver/mesh/io/raw_mesh.h"
 
 namespace geotherm {
@@ -231,7 +232,7 @@ Result<io::FrameArray> array_for(const io::InputFile& file, const std::string& p
 Result<Frames> Frames::open(const std::string& path, std::shared_ptr<const TriangleMesh> mesh) {
   if (io::is_frame_array(io::model_extension(path))) {
     auto file = io::InputFile::open(path);
-    if (!file) return file.error();
+    if (!file) return io::with_path_hint(file.error());
     const auto array = array_for(*file, path, *mesh);
     if (!array) return array.error();
     return Frames(std::make_shared<const Array>(std::move(mesh), io::printable(path),
@@ -239,7 +240,7 @@ Result<Frames> Frames::open(const std::string& path, std::shared_ptr<const Trian
   }
   if (!is_numbered(path) && io::is_moving_scene(io::model_extension(path))) {
     auto file = io::InputFile::open(path);
-    if (!file) return file.error();
+    if (!file) return io::with_path_hint(file.error());
     auto scene = scene_for(*file, path, *mesh);
     if (!scene) return scene.error();
     return Frames(std::make_shared<const Array>(std::move(mesh), io::printable(path),

@@ -349,6 +349,15 @@ TEST(NumberedPaths, AreReadAndRefused) {
   }
 }
 
+TEST(FrameFiles, ThatAreMissingAskForThePath) {
+  const TemporaryDirectory folder;
+  for (const char* name : {"f.npy", "f.glb"}) {
+    const auto none = Frames::open(folder.path(name), triangle());
+    ASSERT_FALSE(none);
+    EXPECT_EQ(sentence(none.error()), folder.path(name) + ": no such file; check the path");
+  }
+}
+
 TEST(NumberedPaths, WithoutAFileSayWhatIsMissing) {
   const TemporaryDirectory folder;
   const auto none = Frames::open(folder.path("f_%04d.obj"), triangle());
