@@ -102,7 +102,7 @@ int run(int argc, char** argv) {
         1, std::string("not enough memory; try ") +
                (rank ? "more ranks, or fewer on each machine" : "a smaller mesh or --backend cg"));
   } catch (const UnheardError& unheard) {  // which has waited
-    return end_with(exit_code(unheard.error.code), one_line(told(unheard.error)));
+    return end_with(exit_code(unheard.error.code), one_line(to_text(unheard.error)));
   } catch (const std::system_error& failure) {  // no thread could be started, most likely
     wait_for_others();
     return end_with(1, "the system refuses: " + std::string(failure.what()) + "; try --threads 1");

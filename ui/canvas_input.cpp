@@ -270,7 +270,8 @@ void CanvasInput::click(Frame& frame) {
   if (*action == MouseAction::kCentre) give_back_sources(frame);
   before_click_.reset();
   if (*action == MouseAction::kSetSource && place_) {
-    chosen_ = frame.explored().places[*place_].position;
+    const std::vector<app::SourcePlace>& places = frame.explored().places;
+    if (*place_ < places.size()) chosen_ = places[*place_].position;  // else it went since
     return;
   }
   if (*action == MouseAction::kSetSource) set_source(frame);

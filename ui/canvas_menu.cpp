@@ -69,6 +69,7 @@ void send_inside_command(Frame& frame, MouseAction action, const Vec3& position)
 
 void open_canvas_menu(Frame& frame, const std::optional<SurfacePoint>& point) {
   frame.ui.menu_point = point;
+  frame.ui.menu_mesh = frame.model()->model.mesh;
   frame.ui.ask_menu = true;
 }
 
@@ -76,9 +77,11 @@ void draw_canvas_menu(Frame& frame) {
   frame.section = "point menu";
   if (frame.ui.ask_menu) ImGui::OpenPopup(kMenu);
   frame.ui.ask_menu = false;
-  if (!ImGui::BeginPopup(kMenu)) return;
-  // A model may have been opened since: its faces are others.
-  if (!frame.model()) frame.ui.menu_point.reset();
+  if (!ImGui::BeginPopup(kMenu)) return frame.ui.menu_mesh.reset();
+  // A model may have been opened since: its faces are others. One that moves keeps them.
+  const bool same = frame.model() &&
+                    frame.ui.menu_mesh->faces().data() == frame.model()->model.mesh->faces().data();
+  if (!same) frame.ui.menu_point.reset();
   draw_stroke(frame, "Source here", MouseAction::kSetSource);
   draw_stroke(frame, "Add a source here", MouseAction::kAddSource);
   draw_stroke(frame, "Remove the nearest source", MouseAction::kRemoveSource);

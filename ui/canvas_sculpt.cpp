@@ -18,7 +18,7 @@ namespace {
 using app::SculptTool;
 
 constexpr float kSpacing = 0.25F;        ///< between touches, in radii as they are seen
-constexpr float kLeastSpacing = 2;       ///< pixels at scale 1
+constexpr float kMinSpacing = 2;         ///< pixels at scale 1
 constexpr std::size_t kMaxTouches = 24;  ///< of one frame, where the pointer has leapt
 constexpr float kMinRadius = 0.005F, kMaxRadius = 0.3F, kMinStrength = 0.01F;
 constexpr int kDigits = 4;  ///< of a radius: more is not seen
@@ -81,7 +81,7 @@ bool SculptStroke::begin(Frame& frame, SculptTool tool, float x, float y) {
   const double radius = radius_of(frame);
   x_ = x;
   y_ = y;
-  step_ = std::max(frame.px(kLeastSpacing), kSpacing * seen_radius(frame, *point, radius));
+  step_ = std::max(frame.px(kMinSpacing), kSpacing * seen_radius(frame, *point, radius));
   const double strength = *app::number_in<double>(exact(frame.ui.sculpt.strength));
   frame.send(app::command::Sculpt{{tool, radius, strength, {*point}}});
   return true;

@@ -6,6 +6,7 @@
 #include <charconv>
 #include <cstddef>
 #include <map>
+#include <memory>
 #include <optional>
 #include <set>
 #include <span>
@@ -84,7 +85,8 @@ struct UiState {
   std::map<std::string, Rect, std::less<>> items;  ///< where they were drawn in this frame
   TextEdit edit;
   CanvasInput input;
-  std::optional<SurfacePoint> menu_point;  ///< of the menu that is open over the picture
+  std::optional<SurfacePoint> menu_point;         ///< of the menu that is open over the picture
+  std::shared_ptr<const TriangleMesh> menu_mesh;  ///< that the point is on; null: no menu is open
   bool ask_menu = false;
   FileDialog dialog;
   WriteQuestion write_question;

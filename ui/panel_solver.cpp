@@ -37,11 +37,11 @@ std::optional<double> time_now(const Frame& frame) {
   if (!frame.model() || options.refine != 0) return {};
   const app::Answer* answer = frame.answer();
   const HeatMethod* const heat = answer ? answer->method->heat() : nullptr;
-  if (frame.model()->model.space) return app::time_in_volume(options.time_step, heat);
+  if (frame.model()->model.space) return app::time_in_space(options.time_step, heat);
   const MeshReport* const mesh = frame.mesh();
   if (!mesh || mesh->components != 1) return {};
   if (heat && heat->grading() != 1) return {};  // only a set-up tells
-  return app::diffusion_time(options.time_step, *mesh);
+  return app::time_on_mesh(options.time_step, *mesh);
 }
 
 /// That t, or else the one of the answer, rounded so that it can be read.

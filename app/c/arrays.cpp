@@ -115,8 +115,8 @@ Result<std::vector<Index>> indices_in(const geotherm_array& array, std::int64_t 
   std::optional<std::string> bad;
   for_each(array, [&](auto value) {
     const auto number = static_cast<double>(value);
-    constexpr double kMost = std::numeric_limits<Index>::max();
-    if (number >= -kMost && number <= kMost && number == std::floor(number)) {
+    constexpr double kMax = std::numeric_limits<Index>::max();
+    if (number >= -kMax && number <= kMax && number == std::floor(number)) {
       values.push_back(static_cast<Index>(value));
     } else if (!bad) {
       const auto n = static_cast<std::int64_t>(values.size());
@@ -158,10 +158,10 @@ Result<void> write_row(const geotherm_array& array, std::int64_t row,
     }
     return {};
   }
-  constexpr double kMost = std::numeric_limits<float>::max();
+  constexpr double kMax = std::numeric_limits<float>::max();
   bool fits = true;
   for (const double value : values) {
-    fits = fits && (value <= kMost || std::isinf(value));
+    fits = fits && (value <= kMax || std::isinf(value));
     const auto rounded = static_cast<float>(value);
     std::memcpy(to, &rounded, sizeof rounded);
     to += step;

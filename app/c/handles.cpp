@@ -118,13 +118,13 @@ const char* keep_text(std::string text) {
 
 Watched::Watched(const geotherm_watch* watch) {
   if (watch == nullptr) return;
-  interruptible_ = watch->interruptible != 0 && begin_counting();
-  if (!interruptible_ && watch->progress == nullptr) return;
-  progress_ = [counts = interruptible_, from = interrupts.load(), call = watch->progress,
-               data = watch->data](std::string_view stage, double share) {
-    if (counts && interrupts.load() != from) return false;
+  if (watch->interruptible == 0 && watch->progress == nullptr) return;
+  progress_ = [this, from = interrupts.load(), call = watch->progress, data = watch->data](
+                  std::string_view stage, double share) {
+    if (interruptible_ && interrupts.load() != from) return false;
     return call == nullptr || call(data, std::string(stage).c_str(), share) == 0;
   };
+  interruptible_ = watch->interruptible != 0 && begin_counting();  // last: no destructor ends it
 }
 
 Watched::~Watched() {

@@ -29,8 +29,8 @@ Result<void> check_pointers(const geotherm_sources* sources) {
 }
 
 Result<app::SourceSpec> spec_of(const geotherm_source& point) {
-  constexpr std::int64_t kMost = std::numeric_limits<Index>::max();
-  if (point.kind != GEOTHERM_XYZ && (point.id < 0 || point.id > kMost)) {
+  constexpr std::int64_t kMax = std::numeric_limits<Index>::max();
+  if (point.kind != GEOTHERM_XYZ && (point.id < 0 || point.id > kMax)) {
     return bad_argument("there is no " +
                         std::string(point.kind == GEOTHERM_FACE ? "face " : "vertex ") +
                         std::to_string(point.id));
@@ -77,7 +77,8 @@ Result<std::vector<Source>> named_sources(const char* text) {
     if (line.find_first_not_of(" \t\r") == std::string_view::npos) continue;
     auto spec = app::parse_source(line);
     if (!spec) return spec.error();
-    out.push_back({*std::move(spec), "source " + app::to_text(*spec)});
+    std::string where = "source " + app::to_text(*spec);
+    out.push_back({*std::move(spec), std::move(where)});
   }
   return out;
 }

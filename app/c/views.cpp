@@ -132,7 +132,7 @@ Result<std::string> text_in(const Model& model, const std::string& name) {
     for (Warning& warning : app::mesh_warnings(mesh)) warnings.push_back(std::move(warning));
   }
   return app::to_text(
-      Json{{"model", app::full_model_json(model, mesh)}, {"warnings", app::told(warnings)}});
+      Json{{"model", app::full_model_json(model, mesh)}, {"warnings", app::to_text(warnings)}});
 }
 
 Result<std::string> text_in(const Solver& solver, const std::string& name) {
@@ -143,12 +143,12 @@ Result<std::string> text_in(const Solver& solver, const std::string& name) {
   return app::to_text(Json{{"options", app::options_json(method, solver.options, answer)},
                            {"timing_ms", {{"setup", solver.ready.setup_ms}}},
                            {"memory_mb", {{"factor", method.memory_mb()}}},
-                           {"warnings", app::told(method.warnings())}});
+                           {"warnings", app::to_text(method.warnings())}});
 }
 
 Result<std::string> text_in(const Answer& answer, const std::string& name) {
   if (!answer.solved) {
-    if (name == "warnings") return app::to_text(Json(app::told(answer.warnings)));
+    if (name == "warnings") return app::to_text(Json(app::to_text(answer.warnings)));
     std::vector<std::string> names = {"warnings"};
     for (const auto& [called, text] : answer.texts) {
       if (called == name) return text;

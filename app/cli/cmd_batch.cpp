@@ -114,7 +114,7 @@ class Batch {
     std::error_code code;
     std::filesystem::create_directories(std::filesystem::path(task.output).parent_path(), code);
     auto process = BatchProcess::start(task, number);
-    if (!process) return take(number, {false, told(process.error()), 0});
+    if (!process) return take(number, {false, to_text(process.error()), 0});
     started_[process->process] = Stopwatch();
     running_.push_back(*std::move(process));
     return {};
@@ -170,7 +170,7 @@ Result<std::vector<BatchTask>> share_of(std::vector<BatchTask> tasks, const Rank
   std::string seen;
   for (const BatchTask& task : tasks) seen += task.model + '\n';
   Result<void> same;
-  if (ranks.exchange(seen).front() != seen) {
+  if (ranks.all_gather(seen).front() != seen) {
     same = Error{ErrorCode::kBadFile,
                  "rank " + std::to_string(ranks.rank()) +
                      " sees other models, or of other sizes, than the first one (" +
@@ -287,7 +287,7 @@ Result<CommandOutput> run_batch(const BatchArguments& arguments, const Progress&
   if (!share) return share.error();
   const auto ours = ranks->agree_on(Batch(*share, manifest, *jobs).run(progress));
   if (!ours) return ours.error();
-  const BatchSums sums = sum_of(ranks->exchange(text_of(*ours)));
+  const BatchSums sums = sum_of(ranks->all_gather(text_of(*ours)));
   CommandOutput out;
   if (!ranks->is_first()) return out;
   if (auto tidied = manifest.tidy(); !tidied) return tidied.error();

@@ -124,7 +124,7 @@ Json centres_json(const CentreFigures& f) {
           {"of", std::move(of)},
           {"centres", std::move(centres)},
           {"timing_ms", {{"load", f.model.load_ms}, {"centre", f.centre_ms}}},
-          {"warnings", told(f.warnings)}};
+          {"warnings", to_text(f.warnings)}};
 }
 
 std::string centres_table(const CentreFigures& f) {

@@ -75,7 +75,7 @@ Json work_json(const DirectionWork& work, const char* stage, double ms) {
           {"from", point_json(work.point)},
           {"frame", std::move(frame)},
           {"timing_ms", {{"load", work.model.load_ms}, {"setup", work.setup_ms}, {stage, ms}}},
-          {"warnings", told(work.warnings)}};
+          {"warnings", to_text(work.warnings)}};
 }
 
 std::string vector_text(const Vec3& v) {
@@ -265,12 +265,12 @@ Result<std::vector<double>> directions_of(const TraceArguments& arguments,
     out.push_back(*angle);
   }
   if (!arguments.fan.empty()) {
-    constexpr Index kMost = 1000000;
+    constexpr Index kMax = 1000000;
     const auto count = number_in<Index>(arguments.fan);
-    if (!count || *count < 1 || *count > kMost) {
+    if (!count || *count < 1 || *count > kMax) {
       return Error{ErrorCode::kBadInput,
                    "--fan: '" + one_line(arguments.fan) + "' is no number of lines",
-                   {"give 1 to " + std::to_string(kMost)}};
+                   {"give 1 to " + std::to_string(kMax)}};
     }
     for (Index i = 0; i < *count; ++i) {
       out.push_back(frame.on_boundary ? frame.angle * (i + 0.5) / *count

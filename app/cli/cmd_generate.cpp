@@ -114,10 +114,10 @@ Result<void> write_frame_files(const NumberedPath& paths, const TriangleMesh& me
     }
     const auto moved = mesh.moved(waving(mesh, phase_of(k, frames)));
     if (!moved) return moved.error();
-    auto written = outputs.write(path, [&] { return write_mesh(path, *moved); });
+    auto written = outputs.write(path, [&] { return write_mesh(outputs.place_of(path), *moved); });
     if (!written) return written;
   }
-  return {};
+  return outputs.replace_all();
 }
 
 Result<CommandOutput> generate_frames(const GenerateArguments& arguments, Index faces,
@@ -134,9 +134,9 @@ Result<CommandOutput> generate_frames(const GenerateArguments& arguments, Index 
                  {"give -o FILE.npy or -o 'frame_%04d.obj'"}};
   }
   Outputs outputs;
-  outputs.keep_together();
   if (!array) {
     if (auto known = check_mesh_path(path); !known) return known.error();
+    outputs.keep_together();
   }
   for (int k = 0; k < (array ? 1 : *frames); ++k) {
     auto expected = outputs.expect(array ? path : numbered->path(k), "--output");

@@ -110,7 +110,7 @@ Json isolines_json(const Answer& figures, const std::vector<double>& levels,
                {"sources", sources_json(figures.sources)},
                {"levels", levels},
                {"lines", Json::array()},
-               {"warnings", told(figures.warnings)}};
+               {"warnings", to_text(figures.warnings)}};
   if (figures.error) json["error"] = error_json(*figures.error);
   double total = 0;
   for (const Isoline& line : lines) {
@@ -146,7 +146,7 @@ std::string isolines_table(const Answer& figures, const std::vector<double>& lev
          counted(static_cast<std::int64_t>(levels.size()), "level", "levels") +
          ", distances up to " + significant(figures.distance.max) + " (" +
          to_text(figures.method->kind()) + ")\n" +
-         (figures.error ? "error: " + told(accuracy_line(*figures.error)) + '\n' : "") +
+         (figures.error ? "error: " + to_text(accuracy_line(*figures.error)) + '\n' : "") +
          table.text();
 }
 

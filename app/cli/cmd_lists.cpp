@@ -53,7 +53,7 @@ Result<CommandOutput> run_info(const InfoArguments& arguments, const Progress& p
     if (polygons) note.hint.insert(note.hint.begin(), as_triangles.begin(), as_triangles.end());
     out.warnings.push_back(std::move(note));
   }
-  const auto report = [&, warnings = told(out.warnings)]() -> Json {
+  const auto report = [&, warnings = to_text(out.warnings)]() -> Json {
     return {{"model", full_model_json(*model, mesh)},
             {"cracks", cracks_json(cracks)},
             {"timing_ms", {{"load", model->load_ms}}},

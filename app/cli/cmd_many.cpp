@@ -134,6 +134,11 @@ bool is_npy(const std::string& path) { return io::file_extension(path) == ".npy"
 
 Result<void> check_pairs(const SolveArguments& arguments) {
   if (auto fits = refuse_single_options(arguments, "--pairs"); !fits) return fits;
+  if (!arguments.targets.empty()) {
+    return Error{ErrorCode::kBadInput,
+                 "--target: the targets of --pairs are its sources",
+                 {"leave it out, or take --each"}};
+  }
   if (const auto type = number_type(arguments); !type) return type.error();
   for (const std::string& path : arguments.outputs) {
     if (path != "-" && !is_npy(path) && io::file_extension(path) != ".csv") {
@@ -295,11 +300,6 @@ Result<CommandOutput> run_pairs(const SolveArguments& arguments, const Progress&
   auto vertices = vertices_of_pairs(work->sources);
   if (!vertices) return vertices.error();
   pairs.vertices = *std::move(vertices);
-  if (!arguments.targets.empty()) {
-    return Error{ErrorCode::kBadInput,
-                 "--target: the targets of --pairs are its sources",
-                 {"leave it out, or take --each"}};
-  }
   work->reach.targets = pairs.vertices;
   const auto rows = static_cast<std::uint64_t>(pairs.size());
   Result<void> fits = check_memory(pairs.size());
@@ -335,7 +335,7 @@ Result<CommandOutput> run_pairs(const SolveArguments& arguments, const Progress&
   if (!figures) return figures.error();
   pairs.entries.resize(pairs.size() * pairs.size());
   const std::size_t bytes_of_row = pairs.size() * sizeof(double);
-  for (const std::string& of_rank : work->ranks.exchange(mine)) {
+  for (const std::string& of_rank : work->ranks.all_gather(mine)) {
     for (std::size_t at = 0, row = 0; at < of_rank.size(); at += sizeof row + bytes_of_row) {
       std::memcpy(&row, of_rank.data() + at, sizeof row);
       std::memcpy(pairs.entries.data() + row * pairs.size(), of_rank.data() + at + sizeof row,

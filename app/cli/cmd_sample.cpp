@@ -91,7 +91,7 @@ SampleCrew crew_of(const DistanceMethod& method, const Ranks& ranks, bool& faile
       const std::span<const double> row = mine->distances;
       return std::string(reinterpret_cast<const char*>(row.data()), row.size_bytes());
     };
-    const auto rows = ranks.exchange_or_fail(bytes());
+    const auto rows = ranks.all_gather_or_fail(bytes());
     failed = !rows;
     if (!rows) return rows.error();
     std::vector<DistanceResult> all(vertices.size());

@@ -195,7 +195,7 @@ std::string sequence_table(const Sequence& sequence, const SequenceFigures& figu
   table.add_row({"method", method_caption(*answer.method)});
   table.add_row({"time", frame_times_in_words(sequence, figures)});
   if (answer.error) {
-    table.add_row({"first frame", "error " + told(accuracy_line(*answer.error))});
+    table.add_row({"first frame", "error " + to_text(accuracy_line(*answer.error))});
   }
   return table.text();
 }

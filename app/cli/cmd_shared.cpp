@@ -263,7 +263,7 @@ Json shared_json(const SharedWork& work, const SharedAnswer& answer, int ranks, 
                  {"query", answer.timing.query}}},
                {"memory_mb", {{"factor", of_heat(answer.factor_mb)}, {"peak_rss", peak_mb}}},
                {"quality", quality_json(answer.quality, work.is_heat())},
-               {"warnings", told(answer.warnings)},
+               {"warnings", to_text(answer.warnings)},
                {"ranks", ranks},
                {"shared",
                 {{"blocks", answer.blocks},
@@ -322,7 +322,7 @@ std::string shared_table(const SharedWork& work, const SharedAnswer& a, int rank
                         counted(a.rounds, "round", "rounds") + "; Poisson " +
                         significant(a.quality.poisson_residual, 2) + ", after " +
                         counted(a.quality.iterations_poisson, "iteration", "iterations")});
-  if (a.error) table.add_row({"error", told(accuracy_line(*a.error))});
+  if (a.error) table.add_row({"error", to_text(accuracy_line(*a.error))});
   return table.text();
 }
 
@@ -361,7 +361,7 @@ Result<CommandOutput> run_shared(const SolveArguments& arguments, const Progress
     const auto written = ranks->is_first() ? work->outputs.write(path, write) : write();
     if (!written) return written.error();
   }
-  const double peak_mb = group.most(peak_rss_mb());
+  const double peak_mb = group.max(peak_rss_mb());
   CommandOutput out;
   if (!ranks->is_first()) return out;
   out.warnings = answer->warnings;

@@ -232,7 +232,7 @@ Result<CommandOutput> run_signed(const SignedArguments& arguments, const Progres
             {"reached", reached},
             {"range", {least, most}},
             {"timing_ms", {{"load", model->load_ms}, {"solve", ms}}},
-            {"warnings", told(warnings)}};
+            {"warnings", to_text(warnings)}};
   };
   const auto table = [&] {
     TextTable rows({{"", TextTable::Align::kLeft}, {"", TextTable::Align::kLeft}});

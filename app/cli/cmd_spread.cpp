@@ -166,7 +166,7 @@ Json spread_json(const SpreadWork& work, const std::vector<AtVertex>& given, Ind
           {"t", work.spread.t},
           {"timing_ms",
            {{"load", work.model.load_ms}, {"setup", work.setup_ms}, {"solve", work.solve_ms}}},
-          {"warnings", told(work.spread.warnings)}};
+          {"warnings", to_text(work.spread.warnings)}};
 }
 
 /// Arrows along the vectors of vertices that lie evenly, the longest as long as their spacing.

@@ -110,7 +110,8 @@ Result<void> check(const ViewArguments& a) {
 /// What a session without a window has to say: all but the commands themselves.
 void collect(const Session& session, CommandOutput& out) {
   for (const LogLine& line : session.log()) {
-    if (line.kind == LogLine::Kind::kNote) out.text += told(Warning{line.text, line.hint}) + '\n';
+    if (line.kind == LogLine::Kind::kNote)
+      out.text += to_text(Warning{line.text, line.hint}) + '\n';
     if (line.kind == LogLine::Kind::kWarning) out.warnings.push_back({line.text, line.hint});
   }
   if (!session.compare().rows.empty()) {

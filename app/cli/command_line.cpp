@@ -41,12 +41,12 @@ int fail(int code, const std::string& message) {
   return code;
 }
 
-int fail(const Error& error) { return fail(exit_code(error.code), told(error)); }
+int fail(const Error& error) { return fail(exit_code(error.code), to_text(error)); }
 
 int print(const CommandOutput& output) {
   if (!is_first_rank()) return 0;
   for (const Warning& warning : output.warnings) {
-    std::fprintf(stderr, "geotherm: warning: %s\n", one_line(told(warning)).c_str());
+    std::fprintf(stderr, "geotherm: warning: %s\n", one_line(to_text(warning)).c_str());
   }
   if (!output.note.empty()) {
     std::fprintf(stderr, "geotherm: %s\n", one_line(output.note).c_str());

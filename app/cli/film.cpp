@@ -96,7 +96,8 @@ std::vector<std::string> words_for(const std::string& path, const std::string& i
 }  // namespace
 
 struct Film::State {
-  std::string path, into;     ///< where it goes, and where it is until then
+  std::string path;           ///< for messages
+  std::string target, into;   ///< where it goes, and where it is until then
   int frames = -1;            ///< our end of what ffmpeg reads
   std::FILE* said = nullptr;  ///< what ffmpeg says of errors
   pid_t process = 0;          ///< 0: it has ended
@@ -148,13 +149,15 @@ Result<void> find_ffmpeg() {
                {"install it (apt-get install ffmpeg), or give a .png name for pictures"}};
 }
 
-Result<Film> Film::open(const std::string& path, const DrawnPicture& first, int frames_per_second,
+Result<Film> Film::open(const std::string& path, const std::string& place,
+                        const DrawnPicture& first, int frames_per_second,
                         const std::string& comment) {
   const std::string program = ffmpeg_path();
   if (program.empty()) return find_ffmpeg().error();
   auto state = std::make_unique<State>();
   state->path = path;
-  const std::string into = path + "." + std::to_string(::getpid()) + ".part";
+  state->target = end_of_links(place);
+  const std::string into = state->target + "." + std::to_string(::getpid()) + ".part";
   int ends[2] = {-1, -1};
   state->said = std::tmpfile();
   if (state->said == nullptr || ::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0) {
@@ -210,7 +213,7 @@ Result<void> Film::add(const DrawnPicture& picture) {
 Result<void> Film::finish() {
   ::close(std::exchange(state_->frames, -1));
   if (state_->process == 0 || state_->wait() != 0) return state_->failed();
-  if (::rename(state_->into.c_str(), state_->path.c_str()) != 0) {
+  if (::rename(state_->into.c_str(), state_->target.c_str()) != 0) {
     return Error{ErrorCode::kBadFile, one_line(state_->path) + ": cannot be written: " + reason()};
   }
   state_->into.clear();

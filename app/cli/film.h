@@ -19,11 +19,13 @@ Result<void> find_ffmpeg();
 /// there whole or not at all. Errors of add() and finish(): kBadFile, with what ffmpeg says.
 class Film {
  public:
-  /// Starts ffmpeg. Preconditions: is_film(path), all frames have the size of the first, which is
-  /// not added yet. `comment`: what the file says about itself. Errors: those of find_ffmpeg(),
-  /// kBadFile.
-  static Result<Film> open(const std::string& path, const DrawnPicture& first,
-                           int frames_per_second, const std::string& comment);
+  /// Starts ffmpeg. `path`: what messages call the film; `place`: the file that it becomes, behind
+  /// links that it may name. Preconditions: is_film() of both, all frames have the size of the
+  /// first, which is not added yet. `comment`: what the file says about itself. Errors: those of
+  /// find_ffmpeg(), kBadFile.
+  static Result<Film> open(const std::string& path, const std::string& place,
+                           const DrawnPicture& first, int frames_per_second,
+                           const std::string& comment);
 
   Film(Film&&) noexcept;
   Film& operator=(Film&&) noexcept;

@@ -68,8 +68,8 @@ Result<void> FrameWriter::take(int frame, const DrawnPicture& picture) {
   figures_.draw_ms += watch_.lap();
   if (is_film(arguments_.output)) {
     if (!film_) {
-      auto film =
-          Film::open(arguments_.output, picture, rate_of(arguments_), one_line(figures_.command));
+      auto film = Film::open(arguments_.output, outputs_.place_of(arguments_.output), picture,
+                             rate_of(arguments_), one_line(figures_.command));
       if (!film) return film.error();
       film_ = *std::move(film);
     }

@@ -171,7 +171,7 @@ Result<KeptRows> KeptRows::open(const std::string& part, std::uint64_t bytes,
   const auto begun =
       ranks.agree(state.is_first ? state.begin_with(bytes, job + '\n') : Result<void>());
   if (!begun) return begun.error();
-  state.marks = ranks.exchange(state.marks).front();
+  state.marks = ranks.all_gather(state.marks).front();
   state.file = ::open(state.list.c_str(), O_WRONLY | O_CLOEXEC);
   const auto opened = ranks.agree(state.file >= 0 ? Result<void>() : state.failure(errno));
   return opened ? Result<KeptRows>(std::move(out)) : opened.error();

@@ -58,7 +58,7 @@ RowSums sums_of_all(const RowSums& mine, const Ranks& ranks) {
   std::string bytes(sizeof mine, '\0');
   std::memcpy(bytes.data(), &mine, sizeof mine);
   RowSums all;
-  for (const std::string& each : ranks.exchange(bytes)) {
+  for (const std::string& each : ranks.all_gather(bytes)) {
     RowSums sums;
     std::memcpy(&sums, each.data(), sizeof sums);
     all.add(sums);
@@ -346,7 +346,7 @@ Json many_json(const ManySources& work, const ManyFigures& figures) {
        {{"factor", figures.method->memory_mb()},
         {"answers", static_cast<double>(chunk_bytes(work.mesh.vertices, work.chunk)) / kMegabyte},
         {"peak_rss", figures.peak_rss_mb}}},
-      {"warnings", told(figures.warnings)}};
+      {"warnings", to_text(figures.warnings)}};
   if (work.done_before() > 0) json["done_before"] = work.done_before();
   if (!work.ranks.alone()) json["ranks"] = work.ranks.count();
   if (figures.error) json["error"] = error_json(*figures.error);
@@ -371,7 +371,7 @@ std::string many_table(const ManySources& work, const ManyFigures& figures,
   table.add_row({"set-up", milliseconds(figures.method->timing().setup) + " ms"});
   table.add_row({"queries", milliseconds(figures.queries_ms) + " ms, " +
                                 milliseconds(figures.queries_ms / rows) + " ms each"});
-  if (figures.error) table.add_row({"error", told(accuracy_line(*figures.error))});
+  if (figures.error) table.add_row({"error", to_text(accuracy_line(*figures.error))});
   return table.text();
 }
 

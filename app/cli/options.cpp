@@ -203,7 +203,7 @@ std::string accuracy_note(const std::string& json, const Outputs& outputs, bool 
                           const AccuracyReport& report, const Warning& line) {
   if (quiet || !outputs.uses_stdout() || json == "-") return {};
   if (!report.measured || report.is_poor()) return {};
-  return "accuracy: " + told(line);
+  return "accuracy: " + to_text(line);
 }
 
 Result<void> expect_report(const std::string& json, Outputs& outputs) {

@@ -65,7 +65,7 @@ Json path_json(const PathFigures& figures) {
        {"method", to_text(figures.method.method)},
        {"timing_ms",
         {{"load", figures.model.load_ms}, {"setup", figures.setup_ms}, {"path", figures.path_ms}}},
-       {"warnings", told(figures.warnings)}});
+       {"warnings", to_text(figures.warnings)}});
   if (figures.error) json["error"] = error_json(*figures.error);
   return json;
 }
@@ -110,7 +110,7 @@ std::string path_table(const PathFigures& figures) {
   table.add_row({"field", to_text(figures.options.field) + ", led by distances of " +
                               to_text(figures.method.method)});
   if (figures.error && figures.error->measured) {
-    table.add_row({"error", "of the distances: " + told(accuracy_line(*figures.error))});
+    table.add_row({"error", "of the distances: " + to_text(accuracy_line(*figures.error))});
   }
   table.add_row({"set-up", milliseconds(figures.setup_ms) + " ms"});
   table.add_row({"search", milliseconds(figures.path_ms) + " ms"});

@@ -186,7 +186,7 @@ std::string picture_table(const PictureFigures& f) {
                        counted(s.samples, "sample", "samples") + " a pixel"});
   table.add_row({"view", view_in_words(f)});
   table.add_row({"model", caption_of(f)});
-  if (f.solve && f.solve->error) table.add_row({"error", told(accuracy_line(*f.solve->error))});
+  if (f.solve && f.solve->error) table.add_row({"error", to_text(accuracy_line(*f.solve->error))});
   for (const PictureFigures::Line& line : f.lines) {
     table.add_row({"path", line.field + " to " + one_line(line.target) + ": " +
                                significant(line.length, 6) + " long"});

@@ -298,7 +298,7 @@ Result<PictureData> prepare_picture(const RenderArguments& arguments, const View
     if (report.values.empty()) {
       return Error{ErrorCode::kBadInput,
                    "--view exact-error: there is nothing to hold --method " +
-                       to_text(options.method) + " against: " + told(report),
+                       to_text(options.method) + " against: " + to_text(report),
                    {"choose another view"}};
     }
     add_error(data, report.values, error_title(report));

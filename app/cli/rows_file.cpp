@@ -75,7 +75,7 @@ Result<SharedFile> SharedFile::open(const std::string& path, std::string_view he
   };
   if (auto begun = ranks.agree(begin()); !begun) return begun.error();
   if (ranks.alone() && !part) return out;
-  state.name = ranks.exchange(ranks.is_first() ? state.file->place() : std::string()).front();
+  state.name = ranks.all_gather(ranks.is_first() ? state.file->place() : std::string()).front();
   state.place = ::open(state.name.c_str(), O_RDWR | O_CLOEXEC);
   const auto opened = ranks.agree(state.place >= 0 ? Result<void>() : state.failure(errno));
   return opened ? Result<SharedFile>(std::move(out)) : opened.error();

@@ -133,7 +133,7 @@ Json sample_json(const SampleFigures& f) {
                  {"sampling", f.sampling_ms},
                  {"query", f.points.query_ms}}},
                {"memory_mb", {{"factor", f.method->memory_mb()}, {"peak_rss", f.peak_rss_mb}}},
-               {"warnings", told(f.warnings)}};
+               {"warnings", to_text(f.warnings)}};
   if (f.ranks > 1) json["ranks"] = f.ranks;
   if (f.error) json["error"] = error_json(*f.error);
   if (f.replaced) json["replaced"] = error_json(*f.replaced);
@@ -169,7 +169,7 @@ std::string sample_table(const SampleFigures& f) {
   figures.add_row({"set-up", milliseconds(f.method->timing().setup) + " ms"});
   figures.add_row({"sampling", milliseconds(f.sampling_ms) + " ms, " +
                                    milliseconds(points.query_ms) + " ms each"});
-  if (f.error) figures.add_row({"error", told(accuracy_line(*f.error))});
+  if (f.error) figures.add_row({"error", to_text(accuracy_line(*f.error))});
   if (f.relaxed) {
     const RelaxedPoints& relaxed = *f.relaxed;
     figures.add_row({"relaxation", counted(std::ssize(relaxed.moves), "step", "steps") + " in " +

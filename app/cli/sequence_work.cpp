@@ -24,6 +24,8 @@ namespace geotherm::app {
 namespace {
 
 constexpr std::string_view kFramesStage = "frames";
+/// On a thread of its own, or where there is none to be had when its result is asked for.
+constexpr auto kBeside = std::launch::async | std::launch::deferred;
 /// Frames after which freed memory is handed back, so that what threads leave behind does not grow
 /// with the frames. To do it after each would cost a tenth of their time.
 constexpr std::int64_t kBetweenReleases = 16;
@@ -42,7 +44,7 @@ struct ReadFrame {
 class ComingFrame {
  public:
   ComingFrame(const Sequence& sequence, std::int64_t k, const ReadyMethod& earlier)
-      : frame_(std::async(std::launch::async, [this, &sequence, k, earlier] {
+      : frame_(std::async(kBeside, [this, &sequence, k, earlier] {
           const Stopwatch watch;
           auto mesh = sequence.frames.read(k);
           const double milliseconds = watch.milliseconds();
@@ -134,6 +136,7 @@ class FrameSolver {
     count_times(*answer);
     note(answer->model.name, answer->warnings);
     answer->error = first.error;
+    answer->replaced = std::move(first.replaced);
     answer->warnings = std::move(first.warnings);
     first = *std::move(answer);
     return {};
@@ -254,7 +257,7 @@ Result<SequenceFigures> solve_frames(const Sequence& sequence, const TakeAnswer&
         read.mesh ? solver.solve(k, read, part_of(with_prefix(progress, stage + ": "), from, to))
                   : Result<void>(read.mesh.error());
     if (!solved && (!sequence.skip_bad || ends_the_run(solved.error()))) return solved.error();
-    if (!solved) figures.bad.push_back({k, told(solved.error())});
+    if (!solved) figures.bad.push_back({k, to_text(solved.error())});
     if (auto taken = take(k, solved ? &*figures.answer : nullptr); !taken) return taken.error();
     if (k % kBetweenReleases == 0) release_freed_memory();
     report(estimate, kFramesStage, to);
@@ -301,7 +304,7 @@ Json sequence_json(const Sequence& sequence, const SequenceFigures& figures) {
         {"frames", figures.wall_ms},
         {"frame", figures.wall_ms / count}}},
       {"memory_mb", {{"factor", answer.method->memory_mb()}, {"peak_rss", figures.peak_rss_mb}}},
-      {"warnings", told(figures.warnings)}};
+      {"warnings", to_text(figures.warnings)}};
   if (answer.error) json["error"] = error_json(*answer.error);
   if (answer.replaced) json["replaced"] = error_json(*answer.replaced);
   return json;

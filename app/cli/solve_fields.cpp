@@ -101,7 +101,7 @@ Result<std::vector<DataField>> make_fields(const WantedFields& wanted, Answer& f
     if (field == QualityField::kError) {
       const bool known = figures.error && !figures.error->values.empty();
       const std::string why = known           ? std::string()
-                              : figures.error ? told(*figures.error)
+                              : figures.error ? to_text(*figures.error)
                                               : "the distances were not checked";
       if (!known && !wanted.all) {
         return Error{ErrorCode::kBadInput,

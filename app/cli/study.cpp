@@ -36,7 +36,7 @@ std::vector<MethodOptions> steps_of(const StudyTask& task) {
 }
 
 std::string message_of(const StudyRow& row) {
-  return row.failure ? told(*row.failure) : std::string();
+  return row.failure ? to_text(*row.failure) : std::string();
 }
 
 }  // namespace

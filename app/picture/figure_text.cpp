@@ -131,8 +131,8 @@ Result<std::optional<PaperLength>> parse_length(const std::string& text) {
 
 Result<std::optional<int>> parse_dpi(const std::string& text) {
   if (text.empty() || text == "auto") return std::optional<int>();
-  constexpr int kLeast = 10, kMost = 2400;
-  const auto dots = whole_between(text, kLeast, kMost, "is no number of pixels an inch");
+  constexpr int kMin = 10, kMax = 2400;
+  const auto dots = whole_between(text, kMin, kMax, "is no number of pixels an inch");
   if (!dots) return dots.error();
   return std::optional(*dots);
 }

@@ -24,7 +24,7 @@ constexpr float kCell = 2.0F / kCells;
 /// Smaller faces are found by their corners and middles alone.
 constexpr float kSmallFace = 0.8F * kCell;
 /// Along the surface depth maps say nothing, and little light comes from there.
-constexpr float kLeastCosine = 0.1F;
+constexpr float kMinCosine = 0.1F;
 
 Vector3f vector(const PictureData::Vector& v) { return {v[0], v[1], v[2]}; }
 
@@ -156,7 +156,7 @@ PictureData::Openness seen_from(const Vector3f& p, const Vector3f& normal,
   for (const DepthMap& map : maps) {
     const float cosine = map.along().dot(normal);
     const float weight = std::abs(cosine);
-    if (weight < kLeastCosine) continue;
+    if (weight < kMinCosine) continue;
     // Within a cell the surface itself rises by its slope.
     const float slack = kCell * (1 + 1.5F * std::sqrt(1 - weight * weight) / weight);
     const auto [ahead, behind] = map.light(map.place(p), slack);

@@ -201,17 +201,17 @@ void add_line(PictureData& data, std::span<const Vec3> points, const std::string
 namespace {
 
 void note_extent(PictureData& data) {
-  constexpr float kMost = std::numeric_limits<float>::max();
-  float least = kMost, greatest = -kMost, positive = kMost;
+  constexpr float kMax = std::numeric_limits<float>::max();
+  float least = kMax, greatest = -kMax, positive = kMax;
   for (const float value : data.values) {
     if (value == kNoPictureValue) continue;
     least = std::min(least, value);
     greatest = std::max(greatest, value);
     if (value > 0) positive = std::min(positive, value);
   }
-  data.smallest_value = least == kMost ? 0 : least;
-  data.greatest_value = greatest == -kMost ? 0 : greatest;
-  data.smallest_positive = positive == kMost ? 0 : positive;
+  data.smallest_value = least == kMax ? 0 : least;
+  data.greatest_value = greatest == -kMax ? 0 : greatest;
+  data.smallest_positive = positive == kMax ? 0 : positive;
   data.unreached = std::ranges::any_of(data.faces, [&data](const auto& face) {
     return std::ranges::any_of(face, [&data](auto v) { return data.values[v] == kNoPictureValue; });
   });

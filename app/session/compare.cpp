@@ -111,7 +111,10 @@ class Runner {
         fail(row, {ErrorCode::kCancelled, "cancelled"});
         return answers;
       }
-      auto result = method.solve(query, {.quality = false, .fields = false});
+      const auto within = [&](std::string_view, double) {
+        return report(progress_, "queries", share);
+      };
+      auto result = method.solve(query, {.quality = false, .fields = false}, within);
       if (!result) {
         fail(row, result.error());
         return answers;

@@ -33,7 +33,7 @@ Json row_json(const CompareRow& row) {
           {"error_reference", to_text(row.error_reference)},
           {"cells", row.cells ? Json(*row.cells) : Json(nullptr)},
           {"status", row.status},
-          {"message", told(row.note)},
+          {"message", to_text(row.note)},
           {"error_queries", row.error_queries}};
 }
 
@@ -106,7 +106,8 @@ std::string compare_table(const Machine& machine, std::span<const CompareRow> ro
                    row.mean_error ? percent_text(*row.mean_error) : "-",
                    row.max_error ? percent_text(*row.max_error) : "-"});
     if (!row.note.message.empty()) {
-      messages += one_line(row.model) + ", " + row.name() + ": " + one_line(told(row.note)) + '\n';
+      messages +=
+          one_line(row.model) + ", " + row.name() + ": " + one_line(to_text(row.note)) + '\n';
     }
     before = &row;
   }
@@ -179,7 +180,7 @@ std::string table_row(const CompareRow& row) {
   out += "</tr>\n";
   if (!row.note.message.empty()) {
     out += "<tr><td></td><td></td><td class=message colspan=9>" +
-           escaped(one_line(told(row.note))) + "</td></tr>\n";
+           escaped(one_line(to_text(row.note))) + "</td></tr>\n";
   }
   return out;
 }

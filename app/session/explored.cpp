@@ -31,13 +31,13 @@ double value_at(const TriangleMesh& mesh, std::span<const double> values,
 
 }  // namespace
 
-double diffusion_time(const TimeStep& step, const MeshReport& mesh) {
+double time_on_mesh(const TimeStep& step, const MeshReport& mesh) {
   const Index cells = mesh.faces - mesh.repeated_corner_faces - mesh.duplicate_faces;
   const ComponentSize size{mesh.mean_edge_length, mesh.area, std::max<Index>(1, cells)};
   return geotherm::diffusion_time(size, 1, step);
 }
 
-std::optional<double> time_in_volume(const TimeStep& step, const HeatMethod* heat) {
+std::optional<double> time_in_space(const TimeStep& step, const HeatMethod* heat) {
   if (step.rule == TimeRule::kAbsolute) return step.absolute;
   if (heat == nullptr || heat->t_range()[0] < heat->t_range()[1]) return std::nullopt;
   const TimeStep& known = heat->options().time_step;

@@ -63,13 +63,13 @@ struct Explored {
   std::uint64_t version = 0;  ///< incremented with every change
 };
 
-/// The t that a time step means on a mesh, model units squared. Precondition: it has one component;
-/// of several each has its own.
-double diffusion_time(const TimeStep& step, const MeshReport& mesh);
+/// The t that a time step means on a mesh, model units squared. Preconditions: it has one component
+/// (of several each has its own), and its grading is 1.
+double time_on_mesh(const TimeStep& step, const MeshReport& mesh);
 
-/// The same in a volume, whose edges inside nobody has measured but a method: from the mean edge
-/// and the mean cell of `heat`, null: none has. Nothing where they do not tell.
-std::optional<double> time_in_volume(const TimeStep& step, const HeatMethod* heat);
+/// The same in a space, whose edges a method alone has measured: by the mean edge and the mean cell
+/// of `heat`. None where that is null or does not tell.
+std::optional<double> time_in_space(const TimeStep& step, const HeatMethod* heat);
 
 /// A or B (for the difference: A); null while there is none.
 const Answer* shown_answer(const Explored& explored, Shown shown);

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <future>
 #include <new>
 #include <utility>
 
@@ -12,6 +11,7 @@
 #include "app/session/sources.h"
 #include "app/session/wording.h"
 #include "app/text/text.h"
+#include "solver/core/parallel.h"
 
 namespace geotherm::app {
 namespace {
@@ -115,10 +115,15 @@ Result<void> Explorer::load(const ExploreRequest& request, const Progress& progr
   auto model = std::make_shared<ExploredModel>();
   model->model = *std::move(loaded);
   const std::shared_ptr<const TriangleMesh> mesh = model->model.mesh;
-  auto solid = std::async(std::launch::async, [&mesh] { return is_solid(*mesh); });
-  auto base = std::make_shared<PictureData>(unlit_picture_of(*mesh, tets_of(model->model)));
+  bool solid = false;
+  std::shared_ptr<PictureData> base;
+  run_both(
+      2, [&] { solid = is_solid(*mesh); },
+      [&] {
+        base = std::make_shared<PictureData>(unlit_picture_of(*mesh, tets_of(model->model)));
+      });
   base->up = model->model.up;
-  base->solid = solid.get();
+  base->solid = solid;
   model->base = std::move(base);
   Explored first;
   first.model = model;

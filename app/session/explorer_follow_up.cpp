@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 // What answers do not wait for: what is said of the mesh, light, paths, the centre of the sources,
 // the check.
-#include <future>
 
 #include "app/session/explorer.h"
 #include "app/session/progress.h"
 #include "app/session/wording.h"
+#include "solver/core/parallel.h"
 
 namespace geotherm::app {
 namespace {
@@ -57,9 +57,9 @@ Result<void> Explorer::make_whole(Result<Explored>& explored, const Progress& pr
   }
   if (!report(progress, "inspecting", -1)) return cancelled_error();
   auto whole = std::make_shared<ExploredModel>(*read_);
-  auto described = std::async(std::launch::async, [&whole] { describe(*whole); });
-  auto rays = RayTree::build(read_->model.mesh, progress);
-  described.get();
+  Result<RayTree> rays = cancelled_error();
+  run_both(
+      2, [&] { describe(*whole); }, [&] { rays = RayTree::build(read_->model.mesh, progress); });
   if (!rays) return rays.error();
   whole->rays = std::make_shared<const RayTree>(*std::move(rays));
   auto base = std::make_shared<PictureData>(*whole->base);
@@ -86,7 +86,7 @@ Result<void> Explorer::make_whole(Result<Explored>& explored, const Progress& pr
 Result<void> Explorer::find_paths(const ExploreRequest& request, Explored& explored,
                                   const Progress& progress) {
   const Source target{*request.target, "target " + to_text(*request.target), ErrorCode::kBadInput};
-  const auto placed = resolve_sources({&target, 1}, *model_->model.mesh);
+  const auto placed = resolve_sources({&target, 1}, *read_->model.mesh);  // as sources are
   auto found =
       placed ? solver_->paths_to(placed->set.points.front(), *explored.a, PathKind::kAll, progress)
              : Result<TargetPaths>(placed.error());

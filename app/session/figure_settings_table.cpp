@@ -33,9 +33,9 @@ Setting words(Setting setting, const char* (*none)()) {
     return (s.picture.*kMember).empty() ? std::string(kNone()) : s.picture.*kMember;
   };
   setting.set = [](ViewerState& s, const std::string& text) -> Result<void> {
-    constexpr std::size_t kMost = 300;
-    if (text.size() > kMost) {
-      return bad_value(text, "is too long", "give up to " + std::to_string(kMost) + " bytes");
+    constexpr std::size_t kMax = 300;
+    if (text.size() > kMax) {
+      return bad_value(text, "is too long", "give up to " + std::to_string(kMax) + " bytes");
     }
     s.picture.*kMember = text == kNone() ? std::string() : one_line(text);
     return {};

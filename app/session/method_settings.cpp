@@ -158,7 +158,8 @@ std::vector<Setting> method_settings() {
        .value_name = "RULE",
        .help = "how the diffusion time t is chosen",
        .forms = "mean-edge (t = m h^2, default), mean-face-area (t = m A/F), absolute:T",
-       .detail = "mean-edge: t = m h\u00b2; mean-face-area: t = m A/F; absolute: t itself.",
+       .detail = "mean-edge: t = m g h\u00b2; mean-face-area: t = m g A/F; absolute: t itself. The "
+                 "grading g is 1 on most meshes.",
        .get = [](const State& s) { return to_text(s.options.time_step); },
        .set =
            [](State& s, const Text& t) {

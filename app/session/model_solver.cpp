@@ -32,9 +32,12 @@ void name_reference_method(const Space& space, std::vector<Warning>& warnings) {
   for (Warning& warning : warnings) {
     for (auto& part : warning.hint) {
       auto* const setting = std::get_if<SettingHint>(&part);
-      if (setting != nullptr && setting->name == "method") {
-        setting->values = {to_text(space.reference_method())};
+      if (setting == nullptr || setting->name != "method") continue;
+      if (space.reference_method() == MethodKind::kHeat) {  // there is no other
+        warning.hint.clear();
+        break;
       }
+      setting->values = {to_text(space.reference_method())};
     }
   }
 }
@@ -161,6 +164,9 @@ Result<std::vector<Index>> ModelSolver::nearest_sources(const SourceSet& sources
   auto result =
       (*method)->solve(sources, {.quality = false, .nearest = true}, part_of(progress, 0.5, 1.0));
   if (!result) return about_model(model_.name, result.error());
+  for (std::size_t v = 0; v < distances.size(); ++v) {
+    if (!std::isfinite(distances[v])) result->nearest_source[v] = kNoIndex;
+  }
   return std::move(result->nearest_source);
 }
 

@@ -110,8 +110,9 @@ class ModelSolver {
       MethodKind kind, std::span<const SourceSet> sets, int threads, const Progress& progress = {},
       std::shared_ptr<const IntrinsicSurface> triangulation = nullptr);
 
-  /// V: group (source_groups()) of the nearest source by the wavefront method, kNoIndex where none
-  /// can be. `distances`: finite where a source can be. Errors: those of its set-up and query.
+  /// V: group (source_groups()) of the nearest source by the wavefront method, in a space by its
+  /// reference method; kNoIndex where `distances` (V) are infinite. Errors: those of that method's
+  /// set-up and query; kNotAvailable (several groups on a surface of edge lengths).
   Result<std::vector<Index>> nearest_sources(const SourceSet& sources,
                                              std::span<const double> distances, int threads,
                                              const Progress& progress = {});

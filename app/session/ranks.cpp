@@ -79,32 +79,32 @@ Result<Ranks> Ranks::join() {
 
 double seconds_for_others(int rank) {
   constexpr double kToBeEnded = 0.5;  // that a launcher takes to end all
-  constexpr int kMost = 10;
-  return kToBeEnded * std::min(rank, kMost);
+  constexpr int kMax = 10;
+  return kToBeEnded * std::min(rank, kMax);
 }
 
-std::vector<std::string> Ranks::exchange(const std::string& mine) const {
+std::vector<std::string> Ranks::all_gather(const std::string& mine) const {
   if (alone()) return {mine};
   std::vector<std::string> all;
   (*mpi_module())
-      ->exchange(mine.data(), static_cast<std::int64_t>(mine.size()), &all,
-                 [](void* context, const char* bytes, std::int64_t size) {
-                   static_cast<std::vector<std::string>*>(context)->emplace_back(
-                       bytes, static_cast<std::size_t>(size));
-                 });
+      ->all_gather(mine.data(), static_cast<std::int64_t>(mine.size()), &all,
+                   [](void* context, const char* bytes, std::int64_t size) {
+                     static_cast<std::vector<std::string>*>(context)->emplace_back(
+                         bytes, static_cast<std::size_t>(size));
+                   });
   return all;
 }
 
-Result<std::vector<std::string>> Ranks::exchange_or_fail(const Result<std::string>& mine) const {
+Result<std::vector<std::string>> Ranks::all_gather_or_fail(const Result<std::string>& mine) const {
   if (alone() && !mine) return mine.error();
   if (alone()) return std::vector<std::string>{*mine};
   // Others may be busy for long, or wait for what this rank will never send.
   constexpr double kPatience = 2, kForEver = -1;
   const double seconds = mine ? kForEver : kPatience + seconds_for_others(rank());
-  if (!(*mpi_module())->meet(seconds)) throw UnheardError{mine.error()};
+  if (!(*mpi_module())->barrier(seconds)) throw UnheardError{mine.error()};
   // A blank before what is said; the code of an error before that.
   const std::string code = mine ? "" : std::to_string(static_cast<int>(mine.error().code));
-  std::vector<std::string> all = exchange(code + ' ' + (mine ? *mine : told(mine.error())));
+  std::vector<std::string> all = all_gather(code + ' ' + (mine ? *mine : to_text(mine.error())));
   for (std::string& each : all) {
     const std::size_t blank = each.find(' ');
     const auto failed = number_in<int>(std::string_view(each).substr(0, blank));
@@ -115,7 +115,7 @@ Result<std::vector<std::string>> Ranks::exchange_or_fail(const Result<std::strin
 }
 
 Result<void> Ranks::agree(const Result<void>& mine) const {
-  const auto all = exchange_or_fail(mine ? Result<std::string>("") : mine.error());
+  const auto all = all_gather_or_fail(mine ? Result<std::string>("") : mine.error());
   return all ? Result<void>() : all.error();
 }
 

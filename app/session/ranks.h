@@ -48,11 +48,11 @@ class Ranks {
   bool is_first() const { return ours_.rank == 0; }
 
   /// What each rank has to say, in the order of the ranks, on all of them.
-  std::vector<std::string> exchange(const std::string& mine) const;
+  std::vector<std::string> all_gather(const std::string& mine) const;
 
   /// The same, or the error of the lowest rank that has one instead, on all of them. Where one
   /// waits in this and another in agree(), they hear of each other's error. Throws UnheardError.
-  Result<std::vector<std::string>> exchange_or_fail(const Result<std::string>& mine) const;
+  Result<std::vector<std::string>> all_gather_or_fail(const Result<std::string>& mine) const;
 
   /// The error of the lowest rank that has one, on all of them: all go on or none does. Throws
   /// UnheardError where others do not come to hear this rank's within seconds.

@@ -297,7 +297,7 @@ Json error_json(const AccuracyReport& report) {
   Json json = {{"reference", to_text(report.reference)},
                {"mean_relative", figure(e.mean_relative)},
                {"max_of_range", figure(e.max_of_range)},
-               {"verdict", told(report)},
+               {"verdict", to_text(report)},
                {"cure", report.remedy ? tried_json(*report.remedy) : Json(nullptr)},
                {"grade", report.measured ? Json(to_text(report.grade)) : Json(nullptr)},
                {"max", figure(e.max)},
@@ -376,7 +376,7 @@ Json solve_json(const Answer& f) {
                  {"factor_forecast", heat ? Json(f.method->heat()->forecast_mb()) : Json(nullptr)},
                  {"peak_rss", f.peak_rss_mb}}},
                {"quality", quality_json(f.result.quality, heat)},
-               {"warnings", told(f.warnings)}});
+               {"warnings", to_text(f.warnings)}});
   if (f.reach.is_bounded()) json["reach"] = reach_json(f);
   if (!f.result.nearest_source.empty()) {
     json["regions"] = regions_json(f.sources, f.result.nearest_source);

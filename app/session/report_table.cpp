@@ -207,7 +207,7 @@ std::string solve_table(const Answer& f) {
     table.add_row({"at sources", "|d| was at most " + significant(q.max_source_distance, 2) +
                                      " before it was set to 0"});
   }
-  if (f.error) table.add_row({"error", told(accuracy_line(*f.error))});
+  if (f.error) table.add_row({"error", to_text(accuracy_line(*f.error))});
   return table.text();
 }
 

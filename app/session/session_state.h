@@ -161,6 +161,7 @@ struct Session::State {
     SessionStudy study;    ///< as far as it is
   };
   struct Compared {
+    std::uint64_t number;  ///< of State::compares
     Result<std::vector<CompareRow>> rows;
   };
   std::mutex inbox_mutex;
@@ -171,7 +172,7 @@ struct Session::State {
   /// What the last study is of: what is asked for, but for the time factor.
   std::optional<ExploreRequest> studied;
   SessionStudy study;
-  std::uint64_t studies = 0;
+  std::uint64_t studies = 0, compares = 0;  ///< so many were started
 
   Explorer explorer;                             ///< the worker's
   std::optional<Worker> worker, compare_worker;  // last: they use all of the above

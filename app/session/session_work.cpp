@@ -163,6 +163,7 @@ bool Session::State::take() {
     } else if (auto* part = std::get_if<Studied>(&message)) {
       if (part->number == studies) study = std::move(part->study);
     } else if (auto* compared = std::get_if<Compared>(&message)) {
+      if (compared->number != compares) continue;  // another one has taken its place
       compare.running = false;
       if (compared->rows) {
         compare.rows = *std::move(compared->rows);
@@ -326,11 +327,13 @@ Result<void> Session::State::start_compare(const command::Compare& command) {
   compare.running = true;
   compare.rows.clear();
   compare.reference = task.reference;
-  const auto job = [this, task, model = explored.model](const Progress& progress) {
+  const auto job = [this, number = ++compares, task,
+                    model = explored.model](const Progress& progress) {
     try {
-      post(Compared{compare_backends(model->model, task, progress)});
+      post(Compared{number, compare_backends(model->model, task, progress)});
     } catch (const std::bad_alloc&) {
-      post(Compared{Error{ErrorCode::kOutOfMemory, "the memory ended while comparing backends"}});
+      post(Compared{number,
+                    Error{ErrorCode::kOutOfMemory, "the memory ended while comparing backends"}});
     }
   };
   if (compare_worker) {

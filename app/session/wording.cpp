@@ -21,17 +21,17 @@ constexpr const char* kBeforeOption = "--";
 
 }  // namespace
 
-std::string told(const Error& error) { return sentence(error, kBeforeOption); }
+std::string to_text(const Error& error) { return sentence(error, kBeforeOption); }
 
-std::string told(const Warning& warning) { return sentence(warning, kBeforeOption); }
+std::string to_text(const Warning& warning) { return sentence(warning, kBeforeOption); }
 
-std::vector<std::string> told(const std::vector<Warning>& warnings) {
+std::vector<std::string> to_text(const std::vector<Warning>& warnings) {
   std::vector<std::string> sentences;
-  for (const Warning& warning : warnings) sentences.push_back(told(warning));
+  for (const Warning& warning : warnings) sentences.push_back(to_text(warning));
   return sentences;
 }
 
-std::string told(const AccuracyReport& report) { return sentence(report, kBeforeOption); }
+std::string to_text(const AccuracyReport& report) { return sentence(report, kBeforeOption); }
 
 Warning warning_of(Error error) {
   Hint hint = std::exchange(error.hint, {});

@@ -17,10 +17,10 @@
 namespace geotherm::app {
 
 /// "SUBJECT: WHAT; try --backend cg, which needs no factor".
-std::string told(const Error& error);
-std::string told(const Warning& warning);
-std::vector<std::string> told(const std::vector<Warning>& warnings);
-std::string told(const AccuracyReport& report);
+std::string to_text(const Error& error);
+std::string to_text(const Warning& warning);
+std::vector<std::string> to_text(const std::vector<Warning>& warnings);
+std::string to_text(const AccuracyReport& report);
 
 /// What the error says, where the work goes on all the same.
 Warning warning_of(Error error);

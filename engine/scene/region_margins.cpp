@@ -34,7 +34,7 @@ class Margins {
       const float continued =
           other.count > 0 ? other.sum / static_cast<float>(other.count) : other.least;
       float& margin = margins[place.first];
-      margin = std::min(margin, std::max(continued, kLeast));
+      margin = std::min(margin, std::max(continued, kMin));
     }
     std::ranges::replace(margins, kNothingNear, 1.0F);
     return margins;
@@ -42,7 +42,7 @@ class Margins {
 
  private:
   static constexpr float kNothingNear = std::numeric_limits<float>::max();
-  static constexpr float kLeast = 1e-6F;
+  static constexpr float kMin = 1e-6F;
 
   /// How much farther a vertex is from the source of another region than from its own.
   struct Other {

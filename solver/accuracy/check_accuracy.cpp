@@ -190,7 +190,7 @@ AccuracyReport unmeasured(MethodKind method, std::string verdict) {
 
 Result<void> find_remedy(AccuracyReport& report, const std::shared_ptr<const TriangleMesh>& mesh,
                          const CheckedAnswers& answers, const ReferenceAnswers& better,
-                         RemedySearch search, const Progress& progress) {
+                         RemedySearch search, const Progress& progress) try {
   if (!report.measured || search == RemedySearch::kNever) return {};
   const bool wanted = search == RemedySearch::kWherePoor ? report.grade == Grade::kPoor
                                                          : report.grade >= Grade::kFair;
@@ -198,9 +198,12 @@ Result<void> find_remedy(AccuracyReport& report, const std::shared_ptr<const Tri
   auto found = diagnose(mesh, answers, better.method, better.distances,
                         search == RemedySearch::kWherePoor ? kMaxFacesBesides : kMaxFacesDiagnosed,
                         progress);
+  if (!found && found.error().code == ErrorCode::kOutOfMemory) return {};
   if (!found) return found.error();
   tell_found(report, *std::move(found));
   return {};
+} catch (const std::bad_alloc&) {
+  return {};  // the figures stand without it
 }
 
 void tell_found(AccuracyReport& report, Diagnosis found) {
@@ -218,7 +221,7 @@ void tell_found(AccuracyReport& report, Diagnosis found) {
 
 Result<AccuracyReport> check_accuracy(const std::shared_ptr<const TriangleMesh>& mesh,
                                       const CheckedAnswers& answers, const AccuracyOptions& options,
-                                      const Progress& progress) {
+                                      const Progress& progress) try {
   const MethodKind checked = answers.method.kind();
   const MethodKind reference =
       options.reference.value_or(usual_reference(checked, mesh->face_count()));
@@ -240,6 +243,8 @@ Result<AccuracyReport> check_accuracy(const std::shared_ptr<const TriangleMesh>&
     return found.error();
   }
   return report;
+} catch (const std::bad_alloc&) {
+  return memory_ended(answers.method.kind());
 }
 
 }  // namespace geotherm

@@ -209,10 +209,11 @@ void add_clamped_vertices(const HeatOptions& options, BelowLine below, DistanceR
     warning.message +=
         below == BelowLine::kRaised
             ? ": the heat carries no information there, and where ways bend distances are too short"
-            : ": the heat carries no information there, and distances around them are too short, "
-              "up to " +
-                  rounded_text(result.quality.clamped_reach) +
-                  " from the sources in a straight line";
+            : ": the heat carries no information there, and distances around them are too short";
+    if (below == BelowLine::kKept && result.quality.clamped_reach > 0) {  // else none was measured
+      warning.message += ", up to " + rounded_text(result.quality.clamped_reach) +
+                         " from the sources in a straight line";
+    }
     warning.hint = {"use ", SettingHint{"method", {"wavefront"}}};
   }
   result.warnings.push_back(std::move(warning));

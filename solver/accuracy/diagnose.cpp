@@ -188,7 +188,7 @@ SettingHint setting_of(const TriedSetting& tried) { return {tried.option, {tried
 Result<Diagnosis> diagnose(const std::shared_ptr<const TriangleMesh>& mesh,
                            const CheckedAnswers& answers, MethodKind reference,
                            std::span<const std::vector<double>> better, Index most_faces,
-                           const Progress& progress) {
+                           const Progress& progress) try {
   const MakeMethod make =
       [&](const MethodOptions& options,
           const Progress& part) -> Result<std::shared_ptr<const DistanceMethod>> {
@@ -213,6 +213,10 @@ Result<Diagnosis> diagnose(const std::shared_ptr<const TriangleMesh>& mesh,
     }
   }
   return std::move(search.found);
+} catch (const std::bad_alloc&) {
+  return Error{ErrorCode::kOutOfMemory,
+               "the memory ended in the search for settings that are right",
+               {"take a mesh with fewer faces"}};
 }
 
 Result<Diagnosis> diagnose_space(const MakeMethod& make, const CheckedAnswers& answers,

@@ -17,7 +17,7 @@ using Complex = ScaledHeat::Complex;
 using Complexes = std::vector<Complex>;
 
 /// The residual over the first one at which Z is solved, and products allowed until then.
-constexpr double kLeastResidual = 1e-13;
+constexpr double kMinResidual = 1e-13;
 constexpr int kBudget = 3000;
 /// Where rounding may be all that is left of the residual.
 constexpr double kRounded = 1e-11;
@@ -95,8 +95,8 @@ ScaledHeat::ScaledHeat(std::span<const Link> links, std::span<const double> mass
     entry_[static_cast<std::size_t>(at)] = value * ratio;
     if (other > own) to_colder[own] += std::abs(value) * ratio;
   });
-  constexpr double kLeast = 0.05;  // where heat falls to nearly no side
-  for (const double share : to_colder) kept_.push_back(std::max(1 - share, kLeast));
+  constexpr double kMin = 0.05;  // where heat falls to nearly no side
+  for (const double share : to_colder) kept_.push_back(std::max(1 - share, kMin));
   for (const Index i : row_) {
     inverse_.push_back(1 / (std::abs(heat.u(i, 0)) * std::pow(heat.step, level(i)) * diagonal[i]));
   }
@@ -136,8 +136,8 @@ Result<Complexes> ScaledHeat::solve(std::span<const Index> rows, std::span<const
   Complexes z(right.size()), residual = right;
   const double first = norm(right);
   int products = 0;
-  for (double left = first; left > kLeastResidual * first;) {
-    if (!report(progress, "solve", std::log(left / first) / std::log(kLeastResidual))) {
+  for (double left = first; left > kMinResidual * first;) {
+    if (!report(progress, "solve", std::log(left / first) / std::log(kMinResidual))) {
       return cancelled_error();
     }
     std::vector<Complexes> kept = {std::move(residual)};
@@ -156,7 +156,7 @@ Result<Complexes> ScaledHeat::solve(std::span<const Index> rows, std::span<const
       const Eigen::VectorXcd wanted = Eigen::VectorXcd::Unit(j + 2, 0);
       shares = least.colPivHouseholderQr().solve(wanted);
       ++products;
-      if (!(length > 0) || (least * shares - wanted).norm() * left <= kLeastResidual * first) break;
+      if (!(length > 0) || (least * shares - wanted).norm() * left <= kMinResidual * first) break;
       for (Complex& x : next) x /= length;
       kept.push_back(std::move(next));
     }
@@ -167,7 +167,7 @@ Result<Complexes> ScaledHeat::solve(std::span<const Index> rows, std::span<const
     add(-1, swept_product(z), residual);
     const double before = std::exchange(left, norm(residual));
     if (left > before / 2 && left <= kRounded * first) break;
-    if (!(left <= kLeastResidual * first) && (products >= kBudget || !std::isfinite(left))) {
+    if (!(left <= kMinResidual * first) && (products >= kBudget || !std::isfinite(left))) {
       return Error{ErrorCode::kBudgetEnded,
                    "the budget of " + std::to_string(kBudget) +
                        " iterations ended at a relative residual of " + rounded_text(left / first),

@@ -15,7 +15,7 @@ namespace {
 /// Rings beyond those that are solved for, in turn, in which triangulations may differ.
 constexpr int kMargins[] = {4, 12, 36};
 /// Heat falls by e over a ring or less; fewer than this would take many rounds.
-constexpr int kLeastRings = 6;
+constexpr int kMinRings = 6;
 
 /// What a block says of the triangles at a vertex, in MeshPart::unit: others must say the same.
 struct BlockStar {
@@ -151,7 +151,7 @@ bool hold_beyond(const MeshPart& part, const std::vector<BlockStar>& owners, int
   for (const Index row : block.held) {
     if (is_edge[row]) block.edge.push_back(row);
   }
-  return covers_own && block.free_rings >= std::min(rings, kLeastRings);
+  return covers_own && block.free_rings >= std::min(rings, kMinRings);
 }
 
 }  // namespace
@@ -190,7 +190,7 @@ Result<std::vector<MeshBlock>> build_blocks(const RankGroup& ranks, const BlockR
     for (MeshBlock& block : blocks) {
       if (block.surface) agrees = hold_beyond(part, owners, rules.rings, block) && agrees;
     }
-    if (ranks.most(agrees ? 0 : 1) == 0) return blocks;
+    if (ranks.max(agrees ? 0 : 1) == 0) return blocks;
   }
   return Error{ErrorCode::kNumericalFailure,
                "ranks do not come to one triangulation where their shares meet",
@@ -273,13 +273,13 @@ Result<SharedComponents> name_components(const RankGroup& ranks, const MeshPart&
       changed = changed || of_all[v] < mine;
       mine = std::min(mine, of_all[v]);
     }
-    changed = ranks.most(changed ? 1 : 0) > 0;
+    changed = ranks.max(changed ? 1 : 0) > 0;
   }
   std::vector<GlobalIndex> roots;
   for (Index v = 0; v < part.own; ++v) {
     if (used[v] && name[names.root(v)] == part.id[v]) roots.push_back(part.id[v]);
   }
-  roots = ranks.gather(roots);  // ascending, as the ranks' vertices are
+  roots = ranks.all_gather(roots);  // ascending, as the ranks' vertices are
   SharedComponents out;
   out.of.assign(name.size(), kNoIndex);
   for (Index v = 0; v < part.size(); ++v) {
@@ -295,7 +295,7 @@ Result<SharedComponents> name_components(const RankGroup& ranks, const MeshPart&
     sums.push_back(size.mean_edge);
     sums.push_back(size.cells);
   }
-  ranks.combine(sums, RankGroup::Combination::kSum);
+  ranks.all_reduce(sums, RankGroup::Reduction::kSum);
   double length = 0, edges = 0;
   for (std::size_t c = 0; c < roots.size(); ++c) {
     out.sizes[c] = {.mean_edge = sums[2 * c] / sums[2 * c + 1],
@@ -332,7 +332,7 @@ void measure_components(const RankGroup& ranks, const MeshPart& part,
       sums[2 * c + 1] += 1;
     }
   }
-  ranks.combine(sums, RankGroup::Combination::kSum);
+  ranks.all_reduce(sums, RankGroup::Reduction::kSum);
   for (std::size_t c = 0; c < components.sizes.size(); ++c) {
     components.sizes[c].area = sums[2 * c];
     components.sizes[c].cells = static_cast<Index>(sums[2 * c + 1]);

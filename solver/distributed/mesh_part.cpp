@@ -41,7 +41,7 @@ std::vector<CurveVertex> along_curve(const RankGroup& ranks, const MeshSlice& sl
       box[k + 3] = std::max(box[k + 3], -x);
     }
   }
-  ranks.combine(box, RankGroup::Combination::kMost);
+  ranks.all_reduce(box, RankGroup::Reduction::kMax);
   const double width = std::max({box[0] + box[3], box[1] + box[4], box[2] + box[5]});
   std::vector<CurveVertex> out(slice.positions.size());
   for (std::size_t i = 0; i < out.size(); ++i) {
@@ -69,7 +69,7 @@ std::vector<CurveVertex> share_out(const RankGroup& ranks, std::vector<CurveVert
     const CurveVertex& at = mine[(2 * i + 1) * mine.size() / (2 * kSamples)];
     samples.push_back({at.key, at.file_id});
   }
-  samples = ranks.gather(samples);
+  samples = ranks.all_gather(samples);
   std::ranges::sort(samples);
   const auto count = static_cast<std::size_t>(ranks.count());
   PerRank<CurveVertex> out(count);
@@ -86,7 +86,7 @@ std::vector<CurveVertex> share_out(const RankGroup& ranks, std::vector<CurveVert
     next = end;
   }
   mine = {};
-  const PerRank<CurveVertex> in = ranks.swap(out);
+  const PerRank<CurveVertex> in = ranks.all_to_all(out);
   for (const auto& each : in) mine.insert(mine.end(), each.begin(), each.end());
   std::ranges::sort(mine, {}, &CurveVertex::place);
   return mine;
@@ -111,7 +111,7 @@ void rename_corners(const RankGroup& ranks, const MeshPart& part, std::vector<Gl
     for (Index v = 0; v < part.own; ++v) {
       out[holder(part.file_id[v])].push_back({part.file_id[v], part.id[v]});
     }
-    for (const auto& each : ranks.swap(out)) {
+    for (const auto& each : ranks.all_to_all(out)) {
       for (const Entry& entry : each) {
         directory[static_cast<std::size_t>(entry.file_id - begin)] = entry.id;
       }
@@ -124,12 +124,12 @@ void rename_corners(const RankGroup& ranks, const MeshPart& part, std::vector<Gl
   asked.erase(std::unique(asked.begin(), asked.end()), asked.end());
   PerRank<GlobalIndex> questions(static_cast<std::size_t>(count));
   for (const GlobalIndex id : asked) questions[holder(id)].push_back(id);
-  PerRank<GlobalIndex> answers = ranks.swap(questions);
+  PerRank<GlobalIndex> answers = ranks.all_to_all(questions);
   for (auto& each : answers) {
     for (GlobalIndex& id : each) id = directory[static_cast<std::size_t>(id - begin)];
   }
   std::vector<GlobalIndex> names;  // in the order of `asked`, since shares ascend
-  for (const auto& each : ranks.swap(answers)) {
+  for (const auto& each : ranks.all_to_all(answers)) {
     names.insert(names.end(), each.begin(), each.end());
   }
   for (GlobalFace& face : faces) {
@@ -155,7 +155,7 @@ std::vector<GlobalFace> hand_out(const RankGroup& ranks, const MeshPart& part,
     }
   }
   std::vector<GlobalFace> mine;
-  for (const auto& each : ranks.swap(out)) mine.insert(mine.end(), each.begin(), each.end());
+  for (const auto& each : ranks.all_to_all(out)) mine.insert(mine.end(), each.begin(), each.end());
   return mine;
 }
 
@@ -196,7 +196,7 @@ double normalise(const RankGroup& ranks, std::vector<Vec3>& positions) {
   double most = 0;
   for (const Vec3& p : positions) most = std::max(most, p.cwiseAbs().maxCoeff());
   int exponent = 0;
-  std::frexp(ranks.most(most), &exponent);
+  std::frexp(ranks.max(most), &exponent);
   for (Vec3& p : positions) {
     for (double& x : p) x = std::ldexp(x, -exponent);
   }
@@ -224,7 +224,7 @@ Result<MeshPart> share_mesh(const RankGroup& ranks, MeshSlice slice) {
   }
   if (auto all = ranks.agree(fits); !all) return all.error();
   part.own = static_cast<Index>(mine.size());
-  part.first = ranks.gather(std::vector<GlobalIndex>{part.own});
+  part.first = ranks.all_gather(std::vector<GlobalIndex>{part.own});
   part.first.insert(part.first.begin(), 0);
   for (std::size_t r = 1; r < part.first.size(); ++r) part.first[r] += part.first[r - 1];
   const GlobalIndex begin = part.first[static_cast<std::size_t>(ranks.rank())];
@@ -257,7 +257,7 @@ void grow_halo(const RankGroup& ranks, int rings, MeshPart& part) {
       asked[static_cast<std::size_t>(part.owner(part.id[v]))].push_back(part.id[v]);
     }
     PerRank<GlobalFace> answers;
-    for (const auto& each : ranks.swap(asked)) {
+    for (const auto& each : ranks.all_to_all(asked)) {
       std::vector<Index> faces;
       for (const GlobalIndex v : each) {
         for (const Side side : at_own.at(static_cast<Index>(v - first))) {
@@ -274,7 +274,7 @@ void grow_halo(const RankGroup& ranks, int rings, MeshPart& part) {
     }
     // Faces at rings before are here; others may come from several owners.
     std::vector<GlobalFace> found;
-    for (const auto& each : ranks.swap(answers)) {
+    for (const auto& each : ranks.all_to_all(answers)) {
       for (const GlobalFace& face : each) {
         const bool here = std::ranges::any_of(face, [&](GlobalIndex v) {
           const Index at = part.local(v, ranks.rank());
@@ -307,7 +307,7 @@ Halo::Halo(const RankGroup& ranks, const MeshPart& part, std::span<const Index> 
     take_[owner].push_back(v);
   }
   const GlobalIndex first = part.first[static_cast<std::size_t>(ranks.rank())];
-  for (const auto& each : ranks.swap(asked)) {
+  for (const auto& each : ranks.all_to_all(asked)) {
     auto& out = send_.emplace_back();
     for (const GlobalIndex v : each) out.push_back(static_cast<Index>(v - first));
   }

@@ -94,7 +94,7 @@ class Halo {
     for (std::size_t r = 0; r < send_.size(); ++r) {
       for (const Index v : send_[r]) out[r].push_back(values[static_cast<std::size_t>(v)]);
     }
-    const PerRank<T> in = ranks.swap(out);
+    const PerRank<T> in = ranks.all_to_all(out);
     for (std::size_t r = 0; r < take_.size(); ++r) {
       for (std::size_t k = 0; k < in[r].size(); ++k) {
         values[static_cast<std::size_t>(take_[r][k])] = in[r][k];

@@ -27,7 +27,7 @@ using PerRank = std::vector<std::vector<T>>;
 /// called by all of them, in the same order.
 class RankGroup {
  public:
-  using Combination = MpiModule::Combination;
+  using Reduction = MpiModule::Reduction;
   /// The error of the lowest rank that has one, on all of them.
   using Agree = std::function<Result<void>(const Result<void>& mine)>;
 
@@ -49,7 +49,7 @@ class RankGroup {
 
   /// out[r] goes to rank r; what comes back are those of each rank for this one.
   template <class T>
-  PerRank<T> swap(const PerRank<T>& out) const {
+  PerRank<T> all_to_all(const PerRank<T>& out) const {
     static_assert(std::is_trivially_copyable_v<T>);
     std::vector<std::int64_t> sizes;
     std::vector<T> all;
@@ -61,14 +61,14 @@ class RankGroup {
       std::vector<std::int64_t> sizes;
       std::vector<T> all;
     } in{std::vector<std::int64_t>(sizes.size()), {}};
-    module_.swap(reinterpret_cast<const char*>(all.data()), sizes.data(), &in,
-                 [](void* context, const std::int64_t* theirs) {
-                   auto& taken = *static_cast<Context*>(context);
-                   std::int64_t sum = 0;
-                   for (auto& size : taken.sizes) sum += size = *theirs++;
-                   taken.all.resize(static_cast<std::size_t>(sum) / sizeof(T));
-                   return reinterpret_cast<char*>(taken.all.data());
-                 });
+    module_.all_to_all(reinterpret_cast<const char*>(all.data()), sizes.data(), &in,
+                       [](void* context, const std::int64_t* theirs) {
+                         auto& taken = *static_cast<Context*>(context);
+                         std::int64_t sum = 0;
+                         for (auto& size : taken.sizes) sum += size = *theirs++;
+                         taken.all.resize(static_cast<std::size_t>(sum) / sizeof(T));
+                         return reinterpret_cast<char*>(taken.all.data());
+                       });
     PerRank<T> result;
     auto at = in.all.cbegin();
     for (const std::int64_t size : in.sizes) {
@@ -81,24 +81,24 @@ class RankGroup {
 
   /// The values of all ranks, one rank after the other in their order.
   template <class T>
-  std::vector<T> gather(const std::vector<T>& mine) const {
+  std::vector<T> all_gather(const std::vector<T>& mine) const {
     std::vector<T> all;
-    for (const auto& each : swap(PerRank<T>(static_cast<std::size_t>(count()), mine))) {
+    for (const auto& each : all_to_all(PerRank<T>(static_cast<std::size_t>(count()), mine))) {
       all.insert(all.end(), each.begin(), each.end());
     }
     return all;
   }
 
   /// Each number becomes that of all ranks.
-  void combine(std::span<double> values, Combination how) const {
-    module_.combine(values.data(), std::ssize(values), how);
+  void all_reduce(std::span<double> values, Reduction how) const {
+    module_.all_reduce(values.data(), std::ssize(values), how);
   }
   double sum(double mine) const {
-    combine({&mine, 1}, Combination::kSum);
+    all_reduce({&mine, 1}, Reduction::kSum);
     return mine;
   }
-  double most(double mine) const {
-    combine({&mine, 1}, Combination::kMost);
+  double max(double mine) const {
+    all_reduce({&mine, 1}, Reduction::kMax);
     return mine;
   }
 

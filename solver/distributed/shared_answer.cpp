@@ -83,7 +83,7 @@ std::vector<double> distances_of(const SharedTask& task, const std::vector<doubl
     distances[v] = std::max(phi[v], 0.0);
     most = std::max(most, distances[v]);
   }
-  most = task.ranks.most(most);
+  most = task.ranks.max(most);
   for (Index v = 0; v < task.part.own; ++v) {
     clamped += distances[v] < kUnreached && phi[v] < -kRoundOffOfDistance * most ? 1 : 0;
   }
@@ -103,8 +103,8 @@ void measure(const SharedTask& task, std::span<const double> distances, SharedAn
     least[0] = std::min(least[0], distance);
     sum += distance;
   }
-  out.most = task.ranks.most(most);
-  task.ranks.combine(least, RankGroup::Combination::kLeast);
+  out.most = task.ranks.max(most);
+  task.ranks.all_reduce(least, RankGroup::Reduction::kMin);
   out.least = least[0];
   out.unreached = static_cast<GlobalIndex>(task.ranks.sum(unreached));
   const auto reached = static_cast<double>(task.part.vertices - out.unreached);
@@ -131,8 +131,8 @@ Result<void> check_answer(const SharedTask& task, const std::vector<BlockFaces*>
     for (std::size_t k = 0; k < sums.size(); ++k) sums[k] += here[k];
     steepest[0] = std::max(steepest[0], part.quality.steepest_edge);
   }
-  task.ranks.combine(sums, RankGroup::Combination::kSum);
-  task.ranks.combine(steepest, RankGroup::Combination::kMost);
+  task.ranks.all_reduce(sums, RankGroup::Reduction::kSum);
+  task.ranks.all_reduce(steepest, RankGroup::Reduction::kMax);
   Quality& q = out.quality;
   q.eikonal_error_mean = sums[1] > 0 ? sums[0] / sums[1] : 0.0;
   q.poisson_residual = sums[3] > 0 ? std::sqrt(sums[2] / sums[3]) : 0.0;

@@ -223,7 +223,7 @@ Result<void> check_rows(const SharedTask& task, std::span<const MeshBlock> block
       square += absolute * absolute;
     }
   }
-  heat.row_residual = task.ranks.most(worst);
+  heat.row_residual = task.ranks.max(worst);
   heat.residual = std::sqrt(task.ranks.sum(square) / task.ranks.sum(given));
   lost = task.ranks.sum(lost);
   if (lost == 0 && heat.row_residual <= kWorstRow) return {};
@@ -250,7 +250,7 @@ void measure_extent(const SharedTask& task, SharedHeat& heat) {
     ends[2 * c] = std::max(ends[2 * c], log_u);
     ends[2 * c + 1] = std::max(ends[2 * c + 1], -log_u);
   }
-  task.ranks.combine(ends, RankGroup::Combination::kMost);
+  task.ranks.all_reduce(ends, RankGroup::Reduction::kMax);
   for (std::size_t c = 0; c < task.components.sizes.size(); ++c) {
     heat.extent.push_back({ends[2 * c], -ends[2 * c + 1], task.components.sizes[c].area});
   }
@@ -314,7 +314,7 @@ Result<SharedHeat> diffuse_over_ranks(const SharedTask& task, std::span<const Me
     if (auto all = task.ranks.agree(done); !all) {
       return with_time_hint(all.error(), task.times.extreme, task.options.time_step.rule);
     }
-    if (task.ranks.most(any ? 1 : 0) == 0) break;
+    if (task.ranks.max(any ? 1 : 0) == 0) break;
     edge.fetch(task.ranks, out.u);
   }
   out.beside = beyond(task.part, beside);

@@ -39,7 +39,7 @@ NearFaces faces_within(const SharedTask& task, std::span<const MeshBlock> blocks
       }
     }
   }
-  return {task.ranks.gather(out), reach > kFarthest};
+  return {task.ranks.all_gather(out), reach > kFarthest};
 }
 
 bool are_delaunay(const SharedTask& task, std::span<const MeshBlock> blocks) {

@@ -98,20 +98,20 @@ std::vector<Warning> notes_of(const RankGroup& ranks, const MeshPart& part,
   }
   CleanFaces left_out;
   left_out.repeated_corner = static_cast<Index>(ranks.sum(repeated));
-  if (ranks.most(duplicates) > 0) {
+  if (ranks.max(duplicates) > 0) {
     left_out.duplicate = static_cast<Index>(ranks.sum(count_duplicates(part)));
   }
   std::vector<Warning> notes = cleaning_notes(left_out);
-  lengthened = ranks.most(lengthened);
+  lengthened = ranks.max(lengthened);
   if (lengthened > 0) {
     notes.push_back({"faces that are degenerate or nearly so had edges lengthened, by up to " +
                      rounded_text(lengthened) +
                      "; distances across them may be too long by as "
                      "much"});
   }
-  ranks.combine(needs, RankGroup::Combination::kSum);
+  ranks.all_reduce(needs, RankGroup::Reduction::kSum);
   note_needs(needs[0], needs[1], notes);
-  if (ranks.most(covers) > 0 && !as_one_would) {
+  if (ranks.max(covers) > 0 && !as_one_would) {
     notes.push_back(
         {"the surface is no oriented manifold everywhere: edges there are not flipped, "
          "where one process would take the tufted Laplacian"});
@@ -126,7 +126,7 @@ std::vector<SharedSource> sources_of(const SharedTask& task) {
     const Vec3& at = part.positions[v];
     if (task.is_source[v]) own.push_back({part.id[v], task.components.of[v], at[0], at[1], at[2]});
   }
-  return task.ranks.gather(own);
+  return task.ranks.all_gather(own);
 }
 
 void check_lines(const SharedTask& task, std::span<const SharedSource> sources,
@@ -142,11 +142,11 @@ void check_lines(const SharedTask& task, std::span<const SharedSource> sources,
   Quality& q = result.quality;
   std::array<double, 2> sums = {static_cast<double>(q.reached_vertices),
                                 static_cast<double>(q.below_straight_line)};
-  task.ranks.combine(sums, RankGroup::Combination::kSum);
+  task.ranks.all_reduce(sums, RankGroup::Reduction::kSum);
   q.reached_vertices = static_cast<Index>(sums[0]);
   q.below_straight_line = static_cast<Index>(sums[1]);
-  q.most_below_straight_line = task.ranks.most(q.most_below_straight_line);
-  q.clamped_reach = task.ranks.most(q.clamped_reach) * part.unit;
+  q.most_below_straight_line = task.ranks.max(q.most_below_straight_line);
+  q.clamped_reach = task.ranks.max(q.clamped_reach) * part.unit;
 }
 
 }  // namespace geotherm

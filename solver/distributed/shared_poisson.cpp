@@ -57,7 +57,7 @@ std::vector<double> scales_of(const SharedTask& task, const std::vector<double>&
   for (Index v = 0; v < task.part.own; ++v) {
     if (!is_pinned(task, v)) squares[task.components.of[v]] += b[v] * b[v];
   }
-  task.ranks.combine(squares, RankGroup::Combination::kSum);
+  task.ranks.all_reduce(squares, RankGroup::Reduction::kSum);
   for (double& each : squares) each = each > 0 ? std::sqrt(each) : 1.0;
   return squares;
 }

@@ -47,7 +47,7 @@ void hand_over(const RankGroup& ranks, const MeshPart& part, const std::vector<d
   const GlobalIndex begin = share_begin(part.vertices, ranks.rank(), ranks.count());
   out.distances.resize(static_cast<std::size_t>(
       share_begin(part.vertices, ranks.rank() + 1, ranks.count()) - begin));
-  for (const auto& each : ranks.swap(entries)) {
+  for (const auto& each : ranks.all_to_all(entries)) {
     for (const Entry& entry : each) {
       out.distances[static_cast<std::size_t>(entry.file_id - begin)] = entry.distance;
     }
@@ -83,7 +83,7 @@ Result<std::vector<char>> place(const RankGroup& ranks, const MeshPart& part,
     flags[v] = 1;
     if (components.of[v] == kNoIndex) loose.push_back(part.file_id[v]);
   }
-  loose = ranks.gather(loose);
+  loose = ranks.all_gather(loose);
   if (loose.empty()) return flags;
   return Error{ErrorCode::kBadInput,
                "vertex " + std::to_string(loose.front()) + " belongs to no face",
@@ -113,7 +113,7 @@ Result<SharedAnswer> solve_over_ranks(const RankGroup& ranks, const std::string&
                                       std::span<const GlobalIndex> sources,
                                       const MethodOptions& options, bool check,
                                       const Progress& progress, Index most_of_block) {
-  auto lap = [&ranks, watch = Stopwatch()]() mutable { return ranks.most(watch.lap()); };
+  auto lap = [&ranks, watch = Stopwatch()]() mutable { return ranks.max(watch.lap()); };
   SharedAnswer out;
   report(progress, "reading", 0.0);
   auto slice = ranks.agree_on(read_ply_slice(path, ranks.rank(), ranks.count()));
@@ -157,7 +157,7 @@ Result<SharedAnswer> solve_over_ranks(const RankGroup& ranks, const std::string&
   for (Index v = 0; v < part.own; ++v) {
     if ((*is_source)[v]) reached[components.of[v]] = 1;
   }
-  ranks.combine(reached, RankGroup::Combination::kMost);
+  ranks.all_reduce(reached, RankGroup::Reduction::kMax);
   const SharedTask task = {.ranks = ranks,
                            .part = part,
                            .components = components,
@@ -220,7 +220,7 @@ Result<SharedAnswer> solve_over_ranks(const RankGroup& ranks, const std::string&
     block.heat = nullptr;
   }
   release_freed_memory();
-  out.factor_mb = ranks.most(factor_bytes) / (1024.0 * 1024.0);
+  out.factor_mb = ranks.max(factor_bytes) / (1024.0 * 1024.0);
   out.timing.diffuse = lap();
   std::vector<std::unique_ptr<BlockFaces>> fields;
   std::vector<BlockFaces*> faces;

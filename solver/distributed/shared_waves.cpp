@@ -47,7 +47,7 @@ class SharedValues {
       for (const auto& each : blocks[b]->edges()) ask(each.name, -1 - each.edge);
     }
     const GlobalIndex first = part.first[static_cast<std::size_t>(ranks.rank())];
-    for (const auto& each : ranks.swap(asked)) {
+    for (const auto& each : ranks.all_to_all(asked)) {
       auto& owned = owned_.emplace_back();
       for (const EdgeName& name : each) {
         owned.push_back(owner_of(static_cast<Index>(name.low - first), name));
@@ -108,7 +108,7 @@ class SharedValues {
         out[r].push_back({static_cast<std::int64_t>(k), value});
       }
     }
-    const PerRank<News> in = ranks_.swap(out);
+    const PerRank<News> in = ranks_.all_to_all(out);
     for (std::size_t r = 0; r < in.size(); ++r) {
       for (const News& news : in[r]) {
         Item& item = to[r][static_cast<std::size_t>(news.at)];
@@ -146,7 +146,7 @@ Result<SharedWaves> wave_over_ranks(const RankGroup& ranks, const MeshPart& part
   for (;; ++out.rounds) {
     double next = kUnreached;
     for (const auto& each : waves) next = std::min(next, each->next());
-    ranks.combine({&next, 1}, RankGroup::Combination::kLeast);
+    ranks.all_reduce({&next, 1}, RankGroup::Reduction::kMin);
     if (!(next < kUnreached)) break;
     if (!(next < until)) {
       from = next;
@@ -154,7 +154,7 @@ Result<SharedWaves> wave_over_ranks(const RankGroup& ranks, const MeshPart& part
     }
     bool ends = true;
     for (const auto& each : waves) ends = each->go_on(from, until) && ends;
-    if (ranks.most(ends ? 0 : 1) > 0) {
+    if (ranks.max(ends ? 0 : 1) > 0) {
       return Error{ErrorCode::kBudgetEnded,
                    "waves on " + std::to_string(part.faces) + " faces: distances fall without end",
                    {"use ", SettingHint{"method", {"heat"}}}};
@@ -184,11 +184,11 @@ Result<SharedWaves> wave_over_ranks(const RankGroup& ranks, const MeshPart& part
   }
   steep.write_to(out.quality);
   sums[3] = out.quality.steep_edges;
-  ranks.combine(sums, RankGroup::Combination::kSum);
+  ranks.all_reduce(sums, RankGroup::Reduction::kSum);
   out.quality.eikonal_error_mean = SlopeSums{sums[0], sums[1]}.mean();
   out.visits = sums[2];
   out.quality.steep_edges = static_cast<Index>(sums[3]);
-  out.quality.steepest_edge = ranks.most(out.quality.steepest_edge);
+  out.quality.steepest_edge = ranks.max(out.quality.steepest_edge);
   return out;
 }
 
@@ -199,7 +199,7 @@ AccuracyReport hold_over_ranks(const RankGroup& ranks, const MeshPart& part,
   AccuracyReport report = unmeasured(MethodKind::kWavefront, "no vertex has both distances");
   double range = 0;
   for (const double d : waves) range = std::max(range, d < kUnreached ? d : 0.0);
-  range = ranks.most(range);
+  range = ranks.max(range);
   struct Worst {
     double off = -1;
     GlobalIndex vertex = 0;
@@ -217,8 +217,8 @@ AccuracyReport hold_over_ranks(const RankGroup& ranks, const MeshPart& part,
     sums[1] += off / e;
     ++sums[3];
   }
-  ranks.combine(sums, RankGroup::Combination::kSum);
-  for (const Worst& each : ranks.gather(std::vector<Worst>{worst})) {
+  ranks.all_reduce(sums, RankGroup::Reduction::kSum);
+  for (const Worst& each : ranks.all_gather(std::vector<Worst>{worst})) {
     if (each.off > worst.off || (each.off == worst.off && each.vertex < worst.vertex)) worst = each;
   }
   if (!(sums[2] > 0)) return report;

@@ -34,9 +34,9 @@ std::vector<ComponentSize> measure_cells(const CellMesh& mesh) {
 }
 
 /// In bodies of the thickness kThickness, in mean widths, t is the square of the mean width; in
-/// thinner ones it is at least the share kLeastTime of that square, since in irregular meshes
+/// thinner ones it is at least the share kMinTime of that square, since in irregular meshes
 /// distances would become too short.
-constexpr double kThickness = 13, kLeastTime = 0.6;
+constexpr double kThickness = 13, kMinTime = 0.6;
 /// Below this share of the cube root of the volume a thickness is that of a long or thin body.
 constexpr double kLongBody = 0.6;
 
@@ -74,7 +74,7 @@ void follow_thickness(CellDomain& domain) {
     const double roundness = std::min(1.0, thickness / (kLongBody * side));
     thickness *= roundness * roundness;
     const double in_widths = thickness / size.mean_edge;
-    size.grading = std::max(kLeastTime, std::pow(in_widths / kThickness, 2.0 / 3));
+    size.grading = std::max(kMinTime, std::pow(in_widths / kThickness, 2.0 / 3));
   }
 }
 

@@ -117,9 +117,9 @@ Attempt<HeatMethod> HeatMethod::State::factorised(const State& from, const HeatO
   const bool iterative = next->backend->iterative();
 
   if (from.poisson) next->poisson = from.poisson->with(options.constraint, options.precision);
-  const bool same_heat = from.heat && from.times == next->times &&
-                         from.options.variant == options.variant &&
-                         same_factors(from.options.precision, options.precision);
+  const PerComponent share = consistent_share(options.variant, next->times.relative);
+  const bool same_heat =
+      from.heat && from.heat->is_of(next->times.t, share, iterative, options.precision);
   const FactorPlan plan =
       plan_factors(next->boundary(), same_heat ? std::optional(from.boundary()) : std::nullopt,
                    next->poisson != nullptr, threads);
@@ -135,8 +135,7 @@ Attempt<HeatMethod> HeatMethod::State::factorised(const State& from, const HeatO
   run_both(
       threads,
       [&] {
-        auto built = HeatStep::build(next->domain, next->times.t, next->boundary(),
-                                     consistent_share(options.variant, next->times.relative),
+        auto built = HeatStep::build(next->domain, next->times.t, next->boundary(), share,
                                      iterative, options.precision, previous.heat.get(), of_heat,
                                      part_of(progress, 0.0, threads > 1 ? 1.0 : 0.5));
         if (built) {

@@ -78,6 +78,12 @@ void scale_rows(const Components& components, const std::vector<double>& factors
 
 }  // namespace
 
+bool HeatStep::is_of(const PerComponent& t, const PerComponent& consistent_share, bool iterative,
+                     Precision precision) const {
+  return t_ == t && consistent_share_ == consistent_share &&
+         (iterative || same_factors(precision_, precision));
+}
+
 Result<std::shared_ptr<const HeatStep>> HeatStep::build(std::shared_ptr<const Domain> domain,
                                                         PerComponent t, BoundaryRule boundary,
                                                         PerComponent consistent_share,
@@ -92,8 +98,7 @@ Result<std::shared_ptr<const HeatStep>> HeatStep::build(std::shared_ptr<const Do
   out->iterative_ = iterative;
   out->precision_ = precision;
   if (previous != nullptr &&
-      (previous->t_ != out->t_ || previous->consistent_share_ != out->consistent_share_ ||
-       (!iterative && !same_factors(previous->precision_, precision)))) {
+      !previous->is_of(out->t_, out->consistent_share_, iterative, precision)) {
     previous = nullptr;
   }
   const bool moved = previous != nullptr && previous->domain_ != out->domain_;

@@ -64,6 +64,10 @@ class HeatStep {
                                                        const HeatStep* previous, int threads,
                                                        const Progress& progress = {});
 
+  /// Whether its systems are those of this t, share and storage.
+  bool is_of(const PerComponent& t, const PerComponent& consistent_share, bool iterative,
+             Precision precision) const;
+
   BoundaryRule boundary() const { return boundary_; }  ///< never kAuto
 
   /// True when these sources change the matrix, so that they cannot share a block with others:

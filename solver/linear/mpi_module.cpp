@@ -88,7 +88,7 @@ void finish_mpi() {
 }
 
 void end_all_ranks(int exit_code) {
-  if (mpi_is_started()) (*mpi_module())->end_all(exit_code);
+  if (mpi_is_started()) (*mpi_module())->abort(exit_code);
 }
 
 }  // namespace geotherm

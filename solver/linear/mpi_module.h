@@ -13,24 +13,24 @@ namespace geotherm {
 /// them nor needs them. Texts that are returned say what went wrong; empty: nothing. PETSc is for
 /// one thread at a time.
 struct MpiModule {
-  enum class Combination { kSum, kLeast, kMost };
+  enum class Reduction { kSum, kMin, kMax };
 
   /// Starts MPI, once; this process has this rank of so many.
   const char* (*start)(int* rank, int* count);
 
   /// Hands the bytes of each rank to all of them, in the order of the ranks. All ranks call it.
-  void (*exchange)(const char* bytes, std::int64_t size, void* context,
-                   void (*take)(void* context, const char* bytes, std::int64_t size));
+  void (*all_gather)(const char* bytes, std::int64_t size, void* context,
+                     void (*take)(void* context, const char* bytes, std::int64_t size));
 
   /// Hands to each rank the bytes that each has for it: of `bytes`, one rank's after the other's,
   /// sizes[r] are for rank r. `room` gives the place for all that comes, in the order of the ranks,
   /// when its sizes are known. All ranks call it.
-  void (*swap)(const char* bytes, const std::int64_t* sizes, void* context,
-               char* (*room)(void* context, const std::int64_t* sizes));
+  void (*all_to_all)(const char* bytes, const std::int64_t* sizes, void* context,
+                     char* (*room)(void* context, const std::int64_t* sizes));
 
-  /// Each number becomes the sum, the least or the largest of what the ranks have there. All ranks
-  /// call it.
-  void (*combine)(double* values, std::int64_t count, Combination how);
+  /// Each number becomes the sum, the smallest or the largest of what the ranks have there. All
+  /// ranks call it.
+  void (*all_reduce)(double* values, std::int64_t count, Reduction how);
 
   /// Ends MPI. Nothing may follow.
   void (*finish)();
@@ -49,10 +49,10 @@ struct MpiModule {
   const char* (*solve)(void* solver, const double* b, double* x, double tolerance, int* iterations);
 
   /// Waits until all ranks have called it, for so many seconds at most (negative: for ever). False:
-  /// they have not; nothing but end_all() may follow.
-  bool (*meet)(double seconds);
+  /// they have not; nothing but abort() may follow.
+  bool (*barrier)(double seconds);
   /// Ends this process and all other ranks, whatever they are doing.
-  void (*end_all)(int exit_code);
+  void (*abort)(int exit_code);
 };
 
 /// The function that a module has, const MpiModule* geotherm_mpi_module_3(): the number grows where

@@ -141,8 +141,8 @@ std::unique_ptr<const Multigrid> Multigrid::build(const SymmetricOperator& matri
       from = &level->matrix;
       for (Index& each : joined) each = pairs[each];
     }
-    constexpr double kLeast = 0.6;  // else the levels cost more than they give
-    if (!(level->matrix.size() < kLeast * above->size())) return nullptr;
+    constexpr double kMin = 0.6;  // else the levels cost more than they give
+    if (!(level->matrix.size() < kMin * above->size())) return nullptr;
     for (Index j = 0; j < level->matrix.size(); ++j) {
       level->diagonal.push_back(
           level->matrix.value[static_cast<std::size_t>(level->matrix.start[j])]);

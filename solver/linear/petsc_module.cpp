@@ -13,11 +13,11 @@
 
 namespace {
 
-/// The communicator of all ranks, which meet() alone uses.
+/// The communicator of all ranks, which barrier() alone uses.
 MPI_Comm meeting = MPI_COMM_NULL;
 
 /// The text as C has it; it stays in memory until the next call on this thread.
-const char* told(std::string text) {
+const char* c_text(std::string text) {
   static thread_local std::string kept;
   kept = std::move(text);
   return kept.c_str();
@@ -57,7 +57,7 @@ const char* start_all(int* rank, int* count) {
   PetscErrorCode code = PetscOptionsSetValue(nullptr, "-no_signal_handler", "true");
   if (code == 0) code = PetscInitializeNoArguments();
   if (code == 0) code = PetscPushErrorHandler(PetscReturnErrorHandler, nullptr);
-  if (code != 0) return told(words_of(code));
+  if (code != 0) return c_text(words_of(code));
   // BoomerAMG's settings exist as options alone.
   const char* const settings[][2] = {{"-pc_hypre_boomeramg_coarsen_type", "HMIS"},
                                      {"-pc_hypre_boomeramg_interp_type", "ext+i"},
@@ -73,8 +73,8 @@ const char* start_all(int* rank, int* count) {
 
 constexpr std::int64_t kPiece = std::int64_t{1} << 30;  // MPI counts in int
 
-void exchange(const char* bytes, std::int64_t size, void* context,
-              void (*take)(void*, const char*, std::int64_t)) {
+void all_gather(const char* bytes, std::int64_t size, void* context,
+                void (*take)(void*, const char*, std::int64_t)) {
   int rank = 0, count = 1;
   MPI_Comm_rank(MPI_COMM_WORLD, &rank);
   MPI_Comm_size(MPI_COMM_WORLD, &count);
@@ -92,8 +92,8 @@ void exchange(const char* bytes, std::int64_t size, void* context,
   }
 }
 
-void swap(const char* bytes, const std::int64_t* sizes, void* context,
-          char* (*room)(void*, const std::int64_t*)) {
+void all_to_all(const char* bytes, const std::int64_t* sizes, void* context,
+                char* (*room)(void*, const std::int64_t*)) {
   constexpr int kTag = 1;
   int count = 1;
   MPI_Comm_size(MPI_COMM_WORLD, &count);
@@ -122,16 +122,16 @@ void swap(const char* bytes, const std::int64_t* sizes, void* context,
   MPI_Waitall(static_cast<int>(open.size()), open.data(), MPI_STATUSES_IGNORE);
 }
 
-void combine(double* values, std::int64_t count, geotherm::MpiModule::Combination how) {
-  using enum geotherm::MpiModule::Combination;
-  const MPI_Op operation = how == kSum ? MPI_SUM : how == kLeast ? MPI_MIN : MPI_MAX;
+void all_reduce(double* values, std::int64_t count, geotherm::MpiModule::Reduction how) {
+  using enum geotherm::MpiModule::Reduction;
+  const MPI_Op operation = how == kSum ? MPI_SUM : how == kMin ? MPI_MIN : MPI_MAX;
   for (std::int64_t at = 0; at < count; at += kPiece) {
     MPI_Allreduce(MPI_IN_PLACE, values + at, static_cast<int>(std::min(kPiece, count - at)),
                   MPI_DOUBLE, operation, MPI_COMM_WORLD);
   }
 }
 
-bool meet(double seconds) {
+bool barrier(double seconds) {
   constexpr useconds_t kBetweenLooks = 1000;
   MPI_Request request = MPI_REQUEST_NULL;
   MPI_Ibarrier(meeting, &request);
@@ -144,7 +144,7 @@ bool meet(double seconds) {
   return there != 0;
 }
 
-void end_all(int exit_code) { MPI_Abort(MPI_COMM_WORLD, exit_code); }
+void abort_all(int exit_code) { MPI_Abort(MPI_COMM_WORLD, exit_code); }
 
 void finish() {
   PetscFinalize();
@@ -186,7 +186,7 @@ void* solver_for(MPI_Comm ranks, const Make& make, bool set_up, const char** pro
       [&] { return KSPSetFromOptions(s.method); },
       [&] { return set_up ? KSPSetUp(s.method) : PetscErrorCode{}; });
   if (code == 0) return solver.release();
-  *problem = told(words_of(code));
+  *problem = c_text(words_of(code));
   return nullptr;
 }
 
@@ -236,10 +236,10 @@ const char* solve(void* solver, const double* b, double* x, double tolerance, in
         return VecRestoreArrayRead(s.answer, &found);
       });
   *iterations = static_cast<int>(taken);
-  if (code != 0) return told(words_of(code));
+  if (code != 0) return c_text(words_of(code));
   if (reason > 0) return "";
-  return told("conjugate gradients with BoomerAMG ended after " + std::to_string(taken) +
-              " iterations (reason " + std::to_string(reason) + " of PETSc)");
+  return c_text("conjugate gradients with BoomerAMG ended after " + std::to_string(taken) +
+                " iterations (reason " + std::to_string(reason) + " of PETSc)");
 }
 
 }  // namespace
@@ -247,7 +247,7 @@ const char* solve(void* solver, const double* b, double* x, double tolerance, in
 extern "C" __attribute__((visibility("default"))) const geotherm::MpiModule*
 geotherm_mpi_module_3() {
   static constexpr geotherm::MpiModule kModule = {
-      start_all,          exchange,    swap,  combine, finish, make_solver,
-      make_shared_solver, free_solver, solve, meet,    end_all};
+      start_all,          all_gather,  all_to_all, all_reduce, finish,   make_solver,
+      make_shared_solver, free_solver, solve,      barrier,    abort_all};
   return &kModule;
 }

@@ -232,7 +232,7 @@ Result<io::FrameArray> array_for(const io::InputFile& file, const std::string& p
 Result<Frames> Frames::open(const std::string& path, std::shared_ptr<const TriangleMesh> mesh) {
   if (io::is_frame_array(io::model_extension(path))) {
     auto file = io::InputFile::open(path);
-    if (!file) return io::with_path_hint(file.error());
+    if (!file) return file.error();
     const auto array = array_for(*file, path, *mesh);
     if (!array) return array.error();
     return Frames(std::make_shared<const Array>(std::move(mesh), io::printable(path),
@@ -240,7 +240,7 @@ Result<Frames> Frames::open(const std::string& path, std::shared_ptr<const Trian
   }
   if (!is_numbered(path) && io::is_moving_scene(io::model_extension(path))) {
     auto file = io::InputFile::open(path);
-    if (!file) return io::with_path_hint(file.error());
+    if (!file) return file.error();
     auto scene = scene_for(*file, path, *mesh);
     if (!scene) return scene.error();
     return Frames(std::make_shared<const Array>(std::move(mesh), io::printable(path),

@@ -202,7 +202,7 @@ Result<std::vector<char>> flags_of(const MaskNumbers& numbers, const MaskText& t
 Result<Mask> read_mask(const std::string& text, const TriangleMesh& mesh) {
   const io::MaskText what = io::parse_mask_text(text);
   const auto file = io::InputFile::open_as_is(what.path);
-  if (!file) return io::with_path_hint(file.error());
+  if (!file) return file.error();
   return io::guarded_read(io::printable(what.path), "mask", file->size(), [&]() -> Result<Mask> {
     const io::FileBytes bytes(*file);
     const std::string extension = io::file_extension(what.path);

@@ -43,13 +43,13 @@ cmp one.csv pairs.csv || fail "pairs of 2 ranks"
 ranks 3 "$program" sample bunny -n 40 --threads 1 -o cells.csv --samples samples.csv --json samples.json >/dev/null
 if ! cmp one.csv cells.csv || ! cmp one_samples.csv samples.csv; then fail "samples of 3 ranks"; fi
 grep -q '"ranks": 3' samples.json || fail "the report of samples"
-refused 2 'no such file\|cannot' "$program" sample gone.ply -n 3
+refused 2 'gone.ply: no such file; check the path' "$program" sample gone.ply -n 3
 
 # One line of one rank, nothing left behind.
 refused 2 'works in one process' "$program" info bunny
 refused 2 'works in one process' "$program" solve bunny -s 0
 refused 2 'standard output' "$program" solve bunny -s 0,1 --each -o -
-refused 2 'no such file\|cannot' "$program" solve gone.ply -s 0,1 --each -o rows.npy
+refused 2 'gone.ply: no such file; check the path' "$program" solve gone.ply -s 0,1 --each -o rows.npy
 # What one rank alone cannot do ends all: the model of others is whole, its disk is full, it has no MPI.
 "$program" generate bunny -o bunny.ply >/dev/null
 mkdir other && head -c 20000 bunny.ply >other/bunny.ply

@@ -136,8 +136,23 @@ class BrowserPage : public DrawingProgram,
         folder.path("profile") + " --screenshot=" + folder.path("page.png") +
         " --window-size=960,600 file://" + folder.path("a.html") + " > " + folder.path("said.txt") +
         " 2>&1";
-    EXPECT_TRUE(runs(command)) << bytes_of(folder.path("said.txt"));
-    return read_png(bytes_of(folder.path("page.png")));
+    // The browser may take its picture before the page, which unpacks its data beside, has drawn.
+    constexpr int kTries = 3;
+    PngContent picture;
+    for (int turn = 0; turn < kTries && is_blank(picture); ++turn) {
+      EXPECT_TRUE(runs(command)) << bytes_of(folder.path("said.txt"));
+      picture = read_png(bytes_of(folder.path("page.png")));
+    }
+    return picture;
+  }
+
+  static bool is_blank(const PngContent& picture) {
+    const auto& pixels = picture.pixels;
+    const auto step = static_cast<std::size_t>(picture.channels);
+    for (std::size_t at = step; at < pixels.size(); ++at) {
+      if (pixels[at] != pixels[at % step]) return false;
+    }
+    return true;
   }
 };
 

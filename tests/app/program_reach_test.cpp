@@ -33,6 +33,21 @@ TEST_F(Program, SolvesNoFartherThanAsked) {
   }
 }
 
+TEST_F(Program, LabelsNothingBeyondTheReach) {
+  for (const char* const check : {"--check=auto", "--no-check"}) {
+    const Json report = json({"solve", "bunny", "-s", "0", "-s", "1200", "--labels", check,
+                              "--max-distance", "0.2", "-o", "near.csv", "--json", "-"});
+    std::int64_t labelled = 0;
+    for (const Json& region : report["regions"]) {
+      labelled += region["vertices"].get<std::int64_t>();
+    }
+    EXPECT_GT(labelled, 2) << check;
+    EXPECT_EQ(labelled, report["model"]["vertices"].get<std::int64_t>() -
+                            report["distance"]["unreached"].get<std::int64_t>())
+        << check;
+  }
+}
+
 TEST_F(Program, SolvesForTargetsAlone) {
   run({"solve", "bunny", "-s", "17", "--method", "wavefront", "-o", "all.npy"});
   const auto all = distances_in(folder, "all.npy");

@@ -88,6 +88,14 @@ TEST_F(Sequence, HasTheRowsOfSeparateSolvesInTheOrderOfTheFrames) {
   EXPECT_EQ(report["frames"]["bad"], 0);
 }
 
+TEST_F(Sequence, SaysWhichAnswerWasReplacedHoweverManyFramesThereAre) {
+  const Json report = json({"solve", "body.obj", "--sequence", "f_%04d.obj", "-s", "17", "-m",
+                            "1e6", "--on-poor", "better", "-o", "rows.npy", "--json", "-"});
+  ASSERT_TRUE(report.contains("replaced")) << report;
+  EXPECT_NE(report["options"]["method"], "heat");
+  EXPECT_GT(report["replaced"]["mean_relative"], report["error"]["mean_relative"]);
+}
+
 TEST_F(Sequence, IsTheSameFromNumberedMeshesAndFromAnArray) {
   run({"solve", "body.obj", "--sequence", "f_%04d.obj", "-s", "17", "-o", "a.npy"});
   run({"solve", "body.obj", "--sequence", "walk.npy", "-s", "17", "-o", "b.npy"});
@@ -295,7 +303,12 @@ TEST_F(Program, GeneratesFramesAsAnArrayAndAsMeshes) {
       }
     }
   }
+  run({"generate", "cube", "--faces", "1200", "--frames", "3", "-o", "f%d.ply"});
+  const auto finer = read_mesh(folder.path("f2.ply"));
+  ASSERT_TRUE(finer);
+  EXPECT_GT(3 * finer->mesh.vertex_count() * 3, static_cast<Index>(values.size()));
   const auto names = folder.names();
+  EXPECT_EQ(names, (std::vector<std::string>{"a.npy", "f0.ply", "f1.ply", "f2.ply"}));
   for (const auto& [arguments, what] :
        std::vector<std::pair<std::vector<std::string>, std::string>>{
            {{"cube", "--frames", "0", "-o", "b.npy"}, "--frames: '0' is no number of frames"},

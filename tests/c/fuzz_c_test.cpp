@@ -94,6 +94,9 @@ TEST(CFuzz, NumbersThatAreNoNumbersOfTheModelAreErrors) {
         << at.kind << ' ' << at.id;
     EXPECT_NE(last_message().find("source 0"), std::string::npos) << last_message();
   }
+  const geotherm_sources typed = {nullptr, 0, nullptr, 0, "0\n1,99"};
+  EXPECT_EQ(geotherm_distance(square.solver, &typed, &out, nullptr), GEOTHERM_BAD_INPUT);
+  EXPECT_NE(last_message().find("source 1,99: "), std::string::npos) << last_message();
   const geotherm_source at = {GEOTHERM_VERTEX, 0, {}, 0};
   const geotherm_sources sources = {&at, 1, nullptr, 0, nullptr};
   for (const geotherm_array& small : {geotherm_array{d.data(), GEOTHERM_FLOAT64, 3, 1, 0, 0},

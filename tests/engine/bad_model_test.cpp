@@ -125,8 +125,13 @@ TEST_F(OddData, OfACameraInsideTheModelShowsItsInside) {
   must(stage.renderer.set_arrows(field, {}));
   stage.scene.arrows.primary = true;
   stage.scene.surface.wire = true;
-  (void)stage.draw();
-  SUCCEED();
+  stage.scene.background = {1, 1, 1, 0};
+  const Image image = stage.draw();
+  for (int y = 0; y < image.height; ++y) {
+    for (int x = 0; x < image.width; ++x) {
+      ASSERT_EQ(image.at(x, y)[3], 255) << "a hole at " << x << ' ' << y;
+    }
+  }
 }
 
 TEST_F(OddData, OfAnEmptyModelIsBackground) {

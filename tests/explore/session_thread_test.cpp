@@ -222,6 +222,20 @@ TEST_F(SessionThread, ComparesBesideTheOtherWork) {
   EXPECT_EQ(test::texts_of(threaded.explored().sources), std::vector<std::string>{"4"});
 }
 
+TEST_F(SessionThread, AComparisonThatIsReplacedSaysNothingAndEndsNoOther) {
+  ASSERT_TRUE(threaded.submit(command::Open{small_model()}));
+  ASSERT_TRUE(threaded.finish());
+  ASSERT_TRUE(threaded.submit(command::Compare{"exact"}));
+  threaded.cancel();
+  ASSERT_TRUE(threaded.submit(command::Compare{"exact"}));
+  ASSERT_TRUE(threaded.submit(command::Compare{"native"}));
+  EXPECT_TRUE(threaded.finish());
+  ASSERT_EQ(threaded.compare().rows.size(), 1U);
+  EXPECT_EQ(threaded.compare().rows[0].backend, "native");
+  const auto is_error = [](const LogLine& line) { return line.kind == LogLine::Kind::kError; };
+  EXPECT_TRUE(std::ranges::none_of(threaded.log(), is_error));
+}
+
 TEST(WorkerThread, KeepsTheLatestOfWhatWaits) {
   std::mutex mutex;
   std::condition_variable changed;

@@ -72,6 +72,20 @@ TEST_F(SessionTimeline, SourcesGoWithTheSurface) {
   EXPECT_EQ(session.explored().places[0].position, position_at(mesh, point));
 }
 
+TEST_F(SessionTimeline, TargetsGoWithTheSurfaceAsSourcesDo) {
+  run({"open " + small_model(), "source set 5", "target xyz:0.1:0:0.1"});
+  const auto target = [this] {
+    const auto& paths = session.explored().paths;
+    EXPECT_FALSE(paths.empty());
+    return paths.empty() ? SurfacePoint() : paths[0].path.points.back();
+  };
+  const SurfacePoint at_rest = target();
+  for (const int k : {0, 1, 2}) {
+    run({k == 0 ? "sequence " + frames() : "frame " + std::to_string(k)});
+    EXPECT_EQ(target(), at_rest) << k;
+  }
+}
+
 TEST_F(SessionTimeline, ALogKeepsTheLastOfTheFramesThatWerePlayedAndReplays) {
   run({"open " + small_model(), "source set 5", "sequence " + frames(), "loop off", "play on",
        "frame 1", "frame 2", "frame 3", "play off", "sculpt pull 0.3 0.5 face:100:0.2:0.3:0.5",

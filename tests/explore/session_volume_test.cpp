@@ -73,17 +73,17 @@ TEST_F(SessionInVolume, TheTimeThatSettingsMeanIsThatOfTheTetsNotOfTheBorder) {
     // Before it is solved, by the answer that there is.
     const auto now = *app::apply(session.state(), *parse_command(settings));
     const HeatMethod before = *session.explored().a->method->heat();
-    const auto forecast = time_in_volume(now.options.time_step, &before);
+    const auto forecast = time_in_space(now.options.time_step, &before);
     run({settings});
     const double used = session.explored().a->method->heat()->t();
     EXPECT_NEAR(forecast.value_or(used), used, 1e-9 * used) << settings;
-    const auto known = time_in_volume(now.options.time_step, session.explored().a->method->heat());
+    const auto known = time_in_space(now.options.time_step, session.explored().a->method->heat());
     ASSERT_TRUE(known) << settings;
     EXPECT_NEAR(*known, used, 1e-9 * used) << settings;
     const bool forecasts = now.options.time_step.rule != TimeRule::kMeanFaceArea;
     EXPECT_EQ(forecast.has_value(), forecasts) << settings;
   }
-  EXPECT_FALSE(time_in_volume(TimeStep(), nullptr));
+  EXPECT_FALSE(time_in_space(TimeStep(), nullptr));
 }
 
 }  // namespace

@@ -166,10 +166,10 @@ std::string fuzz_vti(Bytes bytes) { return grid_read_fault<io::read_vti>(bytes);
 std::string fuzz_nrrd(Bytes bytes) { return grid_read_fault<read_nrrd>(bytes); }
 
 std::string fuzz_gz(Bytes bytes) {
-  constexpr std::size_t kMost = std::size_t{1} << 20;
+  constexpr std::size_t kMax = std::size_t{1} << 20;
   return reading_fault(bytes, [](std::string_view packed) {
-    const auto out = io::unpack_gzip(packed, kMost, io::FileBytes::kPadding);
-    return out.size() > kMost + io::FileBytes::kPadding ? "more than may be" : "";
+    const auto out = io::unpack_gzip(packed, kMax, io::FileBytes::kPadding);
+    return out.size() > kMax + io::FileBytes::kPadding ? "more than may be" : "";
   });
 }
 

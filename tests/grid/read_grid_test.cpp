@@ -232,6 +232,9 @@ TEST(GridFiles, StateWhereTheirSamplesLie) {
                         "data file: b.raw\n"));
   ASSERT_TRUE(scan) << sentence(scan.error());
   EXPECT_EQ(scan->grid.position(4), Vec3(1.5, 0, 0));
+  const auto lone = read_grid(directory.write(
+      "lone.nhdr", kNrrd + "encoding: raw\nspace directions: (0.5,0) (0,-2)\ndata file: no.raw\n"));
+  EXPECT_EQ(sentence(lone.error()), directory.path("no.raw") + ": no such file; check the path");
 
   const auto picture = read_grid(directory.write("c.png", png(2, 3, std::string(6, '\xff'))));
   ASSERT_TRUE(picture);

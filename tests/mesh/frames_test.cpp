@@ -265,7 +265,8 @@ TEST(NumberedFrames, BeginAtTheLeastNumberAndEndAtTheLargest) {
   EXPECT_EQ(frames->read(3)->positions()[0].z(), 2);
   const auto missing = frames->read(2);
   ASSERT_FALSE(missing);
-  EXPECT_EQ(sentence(missing.error()), folder.path("f_0005.obj") + ": no such file");
+  EXPECT_EQ(sentence(missing.error()),
+            folder.path("f_0005.obj") + ": no such file; check the path");
 }
 
 TEST(NumberedFrames, MayHaveMoreDigitsThanTheyAreToHave) {

@@ -265,29 +265,29 @@ void expect_message(const std::string& path, const std::string& message) {
 
 TEST(UnreadableFile, that_is_empty_is_called_empty) {
   const TemporaryDirectory directory;
-  expect_message(directory.write("a.obj", ""), "the file is empty (0 bytes)");
+  expect_message(directory.write("a.obj", ""), "the file is empty (0 bytes); write it again");
 }
 
 TEST(UnreadableFile, that_does_not_exist_is_called_missing) {
   const TemporaryDirectory directory;
-  expect_message(directory.path("a.obj"), "no such file");
+  expect_message(directory.path("a.obj"), "no such file; check the path");
 }
 
 TEST(UnreadableFile, that_is_a_directory_is_called_one) {
   const TemporaryDirectory directory;
   ::mkdir(directory.path("a.obj").c_str(), 0777);
-  expect_message(directory.path("a.obj"), "is a directory; give a mesh file in it");
+  expect_message(directory.path("a.obj"), "is a directory; give a file in it");
 }
 
 TEST(UnreadableFile, that_is_a_pipe_without_a_writer_does_not_block) {
   const TemporaryDirectory directory;
   ASSERT_EQ(::mkfifo(directory.path("a.obj").c_str(), 0666), 0);
-  expect_message(directory.path("a.obj"), "there was nothing to read");
+  expect_message(directory.path("a.obj"), "there was nothing to read; check what writes to it");
 }
 
 TEST(UnreadableFile, that_is_a_device_says_so) {
   EXPECT_EQ(sentence(read_mesh("/dev/zero", "obj").error()),
-            "/dev/zero: is neither a regular file nor a pipe");
+            "/dev/zero: is neither a regular file nor a pipe; check the path");
 }
 
 TEST(UnreadableFile, without_permission_says_so) {
@@ -295,7 +295,10 @@ TEST(UnreadableFile, without_permission_says_so) {
   const TemporaryDirectory directory;
   const std::string path = directory.write("a.obj", kTriangle);
   ASSERT_EQ(::chmod(path.c_str(), 0), 0);
-  expect_message(path, "no permission to read the file");
+  expect_message(
+      path,
+      "no permission to read the file; check the rights to it and to the folders that it "
+      "is in");
 }
 
 TEST(UnreadableFile, of_an_unknown_extension_is_told_which_there_are) {
@@ -309,7 +312,8 @@ TEST(UnreadableFile, of_an_unknown_extension_is_told_which_there_are) {
 }
 
 TEST(UnreadableFile, with_control_characters_in_its_name_has_a_message_of_one_line) {
-  EXPECT_EQ(sentence(read_mesh("/no\nwhere.obj").error()), "/no?where.obj: no such file");
+  EXPECT_EQ(sentence(read_mesh("/no\nwhere.obj").error()),
+            "/no?where.obj: no such file; check the path");
 }
 
 }  // namespace

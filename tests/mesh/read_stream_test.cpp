@@ -81,7 +81,8 @@ TEST(Stream, IsReadToItsEndHoweverLong) {
 }
 
 TEST(Stream, SaysWhatIsWrongWithIt) {
-  EXPECT_EQ(sentence(read_from_pipe("", "obj").error()), "the pipe: there was nothing to read");
+  EXPECT_EQ(sentence(read_from_pipe("", "obj").error()),
+            "the pipe: there was nothing to read; check what writes to it");
   EXPECT_EQ(sentence(read_from_pipe("v 1 2\n", "obj").error()).find("the pipe: line 1"), 0U);
   EXPECT_EQ(read_from_pipe("v 1 2 3\n", "xyzw").error().code, ErrorCode::kNotAvailable);
   EXPECT_EQ(read_stream(-1, "nothing", "obj").error().code, ErrorCode::kBadFile);

@@ -231,7 +231,7 @@ TEST_F(Panels, SlidersMoveTheSliceAndThePeel) {
 TEST_F(Panels, AbsoluteTimeBeginsWithTheOneThatHolds) {
   open_square();
   const double t =
-      app::diffusion_time(session_.state().options.time_step, *session_.explored().model->mesh);
+      app::time_on_mesh(session_.state().options.time_step, *session_.explored().model->mesh);
   click_item("Solver/time-step");
   click_item("Solver/time-step=absolute");
   ASSERT_EQ(session_.state().options.time_step.rule, TimeRule::kAbsolute);

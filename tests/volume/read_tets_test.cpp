@@ -149,7 +149,8 @@ TEST(TetReaderTetgen, TakesEitherFileAndEitherFirstNumber) {
 TEST(TetReaderTetgen, NamesTheFileThatIsMissingOrWrong) {
   const TemporaryDirectory directory;
   const std::string node = directory.write("A.NODE", node_text(1));
-  EXPECT_EQ(sentence(read_tets(node).error()), directory.path("A.ELE") + ": no such file");
+  EXPECT_EQ(sentence(read_tets(node).error()),
+            directory.path("A.ELE") + ": no such file; check the path");
   directory.write("A.ELE", ele_text(0));
   EXPECT_EQ(sentence(read_tets(node).error()),
             directory.path("A.ELE") +

@@ -160,7 +160,7 @@ std::vector<TetDamage> other_damages() {
        "line 2: the vertex has the number 5; they count up from 0 or 1 in vertex 1 of 1"},
       {"node_many", "a.node", "100 3 0 0\n0 0 0 0\n",
        "line 1: there are to be 100 vertices, but only 15 bytes follow in the first line"},
-      {"empty", "a.mesh", "", "the file is empty (0 bytes)"},
+      {"empty", "a.mesh", "", "the file is empty (0 bytes); write it again"},
       {"extension", "a.tet", "x",
        "unknown extension \".tet\" of tets; there are .vtk .vtu .msh .mesh .meshb "
        ".node .ele"},

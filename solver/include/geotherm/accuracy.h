@@ -144,8 +144,8 @@ inline constexpr Index kMaxFacesExact = 20'000;
 /// if they leave less than half of what another one leaves. What fails is passed over. `better`:
 /// distances of `reference` for the same sources. The method wavefront is held against exact
 /// distances on small meshes, else against wavefront-fine, where it is itself the reference.
-/// `most_faces`: kMaxFacesDiagnosed or kMaxFacesBesides. Errors: kCancelled. Cost: a set-up and
-/// queries for each setting tried, at most 16.
+/// `most_faces`: kMaxFacesDiagnosed or kMaxFacesBesides. Errors: kCancelled, kOutOfMemory. Cost: a
+/// set-up and queries for each setting tried, at most 16.
 Result<Diagnosis> diagnose(const std::shared_ptr<const TriangleMesh>& mesh,
                            const CheckedAnswers& answers, MethodKind reference,
                            std::span<const std::vector<double>> better, Index most_faces,
@@ -211,6 +211,7 @@ Result<ReferenceAnswers> solve_reference(const DistanceMethod& method,
                                          const Progress& progress = {});
 
 /// Holds distances of `checked`, V for each source set, against better ones of the same sets.
+/// Throws std::bad_alloc alone.
 AccuracyReport hold_against(std::span<const std::vector<double>> distances, MethodKind checked,
                             const ReferenceAnswers& better);
 
@@ -222,7 +223,7 @@ AccuracyReport unmeasured(MethodKind method, std::string verdict);
 
 /// Looks for a setting that is right (diagnose()) as far as `search` allows, and puts it into the
 /// report and its advice. Preconditions: hold_against() made the report from answer.distances and
-/// `better`. Errors: kCancelled. Cost: that of diagnose().
+/// `better`. Where the memory ends, none is found. Errors: kCancelled. Cost: that of diagnose().
 Result<void> find_remedy(AccuracyReport& report, const std::shared_ptr<const TriangleMesh>& mesh,
                          const CheckedAnswers& answers, const ReferenceAnswers& better,
                          RemedySearch search, const Progress& progress = {});
@@ -230,8 +231,8 @@ Result<void> find_remedy(AccuracyReport& report, const std::shared_ptr<const Tri
 /// All of the above: how wrong the answers of a method are. `answers`: what it gave for which
 /// sources; the method and its options serve the search and are shared by it where they can be.
 /// Where `options.reference` is no better than the method, nothing is measured. Errors: those of
-/// the reference; the distances themselves are untouched. Cost: a set-up of the reference without
-/// its triangulation, and its queries; the search, where one is made.
+/// the reference, kOutOfMemory; the distances themselves are untouched. Cost: a set-up of the
+/// reference without its triangulation, and its queries; the search, where one is made.
 Result<AccuracyReport> check_accuracy(const std::shared_ptr<const TriangleMesh>& mesh,
                                       const CheckedAnswers& answers,
                                       const AccuracyOptions& options = {},

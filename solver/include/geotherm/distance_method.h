@@ -115,8 +115,8 @@ class HeatMethod;
 
 /// How far a query goes. What lies within has the bits of the answer to all of the mesh. Waves,
 /// fast marching and windows on triangle meshes end where nothing nearer is left to find, and spend
-/// time on what lies within alone; the other methods solve for all and cut. Without the quality
-/// figures that are of the whole surface.
+/// time on what lies within alone; the other methods solve for all and cut. Quality
+/// figures of the whole surface are left out then.
 struct Reach {
   double max_distance = kUnreached;  ///< > 0, model units; what is farther is kUnreached
   /// In [0, V): the query ends when all of them have their distance, and the answer is theirs alone

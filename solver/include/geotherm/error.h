@@ -10,7 +10,8 @@
 #include <vector>
 
 // Expected failures are values: a Result<T> holds a T or an Error with a code, a sentence and a
-// hint. The library throws nothing of its own; std::bad_alloc becomes ErrorCode::kOutOfMemory.
+// hint. The library throws nothing of its own; in functions that return a Result std::bad_alloc
+// becomes ErrorCode::kOutOfMemory.
 namespace geotherm {
 
 /// A setting by the name that the library has for it ("backend", "time-factor", "memory-limit"),

@@ -19,8 +19,9 @@ namespace geotherm {
 /// A triangulation of the surface that may have other edges than the mesh; internal.
 struct IntrinsicSurface;
 
-/// Is handed a triangulation that waves may share, as soon as it stands: beside the rest of the
-/// set-up. Called on a thread of the set-up, again where another backend takes over.
+/// A function that takes a triangulation which waves may share, as soon as it is made and while the
+/// rest of the set-up goes on. Called on a thread of the set-up, again where another backend takes
+/// over.
 using TriangulationReady = std::function<void(std::shared_ptr<const IntrinsicSurface>)>;
 
 /// Geodesic distance by the heat method (Crane, Weischedel, Wardetzky 2013): solve
@@ -64,8 +65,9 @@ class HeatMethod final : public DistanceMethod {
   static Result<HeatMethod> build(std::shared_ptr<const Grid> grid, const HeatOptions& options = {},
                                   const Progress& progress = {});
 
-  /// The same mesh with other options. Cost: what the change needs, nothing for sources' sake. The
-  /// backend that took over stays where the same one is asked for again.
+  /// The same mesh with other options. Cost: of the set-up what the change makes necessary; sources
+  /// cost nothing before a query has them. The backend that took over stays where the same one is
+  /// asked for again.
   Result<HeatMethod> with(const HeatOptions& options, const Progress& progress = {}) const;
 
   /// The same faces with the vertices elsewhere: a surface that moves. The answers are those of a

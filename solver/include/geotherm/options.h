@@ -12,10 +12,11 @@
 // is worth. The other methods have no option but the number of threads.
 namespace geotherm {
 
-/// How the diffusion time t (model units squared) is chosen.
+/// How the diffusion time t (model units squared) is chosen. g is HeatMethod::grading(): 1 but on
+/// some meshes and grids.
 enum class TimeRule {
-  kMeanEdge,      ///< t = m h^2, h the mean edge length (Crane et al. 2013, section 3.2.4)
-  kMeanFaceArea,  ///< t = m A / F, total area over number of faces
+  kMeanEdge,      ///< t = m g h^2, h the mean edge length (Crane et al. 2013, section 3.2.4: g = 1)
+  kMeanFaceArea,  ///< t = m g A / F, total area over number of faces
   kAbsolute,      ///< t = the given number
 };
 inline NamedValues<TimeRule> named_values(TimeRule) {

@@ -51,16 +51,22 @@ std::string quoted(std::string_view text, const char* where) {
 
 namespace {
 
-std::string open_cause(int code) {
+/// Why a file does not open, and what to do about it.
+Error open_error(const std::string& shown, int code) {
+  const auto failure = [&shown](const std::string& cause, Hint hint) {
+    return Error{ErrorCode::kBadFile, shown + ": " + cause, std::move(hint)};
+  };
   switch (code) {
     case ENOENT:
     case ENOTDIR:
-      return "no such file";
+      return failure("no such file", {"check the path"});
     case EACCES:
     case EPERM:
-      return "no permission to read the file";
+      return failure("no permission to read the file",
+                     {"check the rights to it and to the folders that it is in"});
     default:
-      return "cannot be opened: " + std::generic_category().message(code);
+      return failure("cannot be opened: " + std::generic_category().message(code),
+                     {"check the path"});
   }
 }
 
@@ -113,23 +119,25 @@ InputFile::~InputFile() {
 
 Result<InputFile> InputFile::open_as_is(const std::string& path) {
   const std::string shown = printable(path);
-  const auto failure = [&shown](const std::string& cause, Hint hint = {}) {
-    return Error{ErrorCode::kBadFile, shown + ": " + cause, std::move(hint)};
+  const auto failure = [&shown](const std::string& cause, const std::string& hint) {
+    return Error{ErrorCode::kBadFile, shown + ": " + cause, {hint}};
   };
   // O_NONBLOCK: opening a pipe must not wait for its writer.
   InputFile file(path, shown, ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
   struct stat status {};
   if (file.descriptor_ < 0 || ::fstat(file.descriptor_, &status) != 0) {
-    return failure(open_cause(errno));
+    return open_error(shown, errno);
   }
-  if (S_ISDIR(status.st_mode)) return failure("is a directory", {"give a mesh file in it"});
+  if (S_ISDIR(status.st_mode)) return failure("is a directory", "give a file in it");
   if (S_ISFIFO(status.st_mode) || S_ISSOCK(status.st_mode)) {
     wait_for_writer(file.descriptor_);
     if (auto held = file.hold_stream(); !held) return held.error();
     return file;
   }
-  if (!S_ISREG(status.st_mode)) return failure("is neither a regular file nor a pipe");
-  if (status.st_size == 0) return failure("the file is empty (0 bytes)");
+  if (!S_ISREG(status.st_mode)) {
+    return failure("is neither a regular file nor a pipe", "check the path");
+  }
+  if (status.st_size == 0) return failure("the file is empty (0 bytes)", "write it again");
   file.before_ = version_in(status);
   return file;
 }
@@ -172,7 +180,7 @@ Result<void> InputFile::prepare(std::string_view format) {
 Result<void> InputFile::hold_stream() {
   constexpr std::size_t kStep = std::size_t{1} << 20;
   std::size_t size = 0;
-  const auto fail = [&](ErrorCode code, const std::string& cause, Hint hint = {}) {
+  const auto fail = [&](ErrorCode code, const std::string& cause, Hint hint) {
     return Error{code, shown_ + ": " + cause, std::move(hint)};
   };
   try {
@@ -192,12 +200,15 @@ Result<void> InputFile::hold_stream() {
       if (got < 0 && errno == EINTR) continue;
       if (got < 0) {
         return fail(ErrorCode::kBadFile,
-                    "cannot be read: " + std::generic_category().message(errno));
+                    "cannot be read: " + std::generic_category().message(errno),
+                    {"write it to a file and name that"});
       }
       if (got == 0) break;
       size += static_cast<std::size_t>(got);
     }
-    if (size == 0) return fail(ErrorCode::kBadFile, "there was nothing to read");
+    if (size == 0) {
+      return fail(ErrorCode::kBadFile, "there was nothing to read", {"check what writes to it"});
+    }
     bytes.resize(size + kPadding);
     std::memset(bytes.data() + size, 0, kPadding);
     held_ = std::make_shared<const RawVector<char>>(std::move(bytes));
@@ -272,14 +283,9 @@ FileBytes::FileBytes(const InputFile& file)
   });
 }
 
-Error with_path_hint(Error error) {
-  if (error.hint.empty()) error.hint = {"check the path"};
-  return error;
-}
-
 Result<FileBytes> FileBytes::read(const std::string& path) {
   const auto file = InputFile::open(path);
-  if (!file) return with_path_hint(file.error());
+  if (!file) return file.error();
   try {
     FileBytes read(*file);
     if (auto same = file->check_unchanged(); !same) return same.error();

@@ -43,7 +43,7 @@ class InputFile {
   /// `format`: what it is read as, whatever its name; empty: what the name says. Errors (kBadFile):
   /// no such file, no permission, a directory or another thing that is neither a regular file nor a
   /// pipe, an empty file, damaged gzip; kOutOfMemory (a pipe holds more than half of the memory
-  /// that is free, for the mesh needs as much again); each "PATH: cause".
+  /// that is free, for the mesh needs as much again); each "PATH: cause" with a hint.
   static Result<InputFile> open(const std::string& path, std::string_view format = {});
 
   /// The bytes of a file as they are, packed or not. Errors: the same.
@@ -102,9 +102,6 @@ class InputFile {
   Version before_;
   std::shared_ptr<const RawVector<char>> held_;  ///< with the padding; null: the file has the bytes
 };
-
-/// The error of a file that does not open, with something to do about it in any case.
-Error with_path_hint(Error error);
 
 /// A file as a whole in memory.
 ///

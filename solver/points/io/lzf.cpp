@@ -17,13 +17,13 @@ std::vector<char> unpack_lzf(std::string_view packed, std::size_t size, std::siz
       to += length;
       continue;
     }
-    constexpr std::size_t kLong = 7, kLeast = 2;
+    constexpr std::size_t kLong = 7, kMin = 2;
     std::size_t length = control >> 5;
     if (length == kLong) {
       if (from == packed.size()) return {};
       length += byte(from++);
     }
-    length += kLeast;
+    length += kMin;
     if (from == packed.size()) return {};
     const std::size_t distance = ((control & 31) << 8) + byte(from++) + 1;
     if (distance > to || length > size - to) return {};

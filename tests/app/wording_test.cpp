@@ -13,28 +13,29 @@ const Error kMemory{ErrorCode::kOutOfMemory,
                     {"try ", SettingHint{"backend", {"cg"}}, ", which needs no factor"},
                     "native"};
 
-TEST(Told, NamesSettingsAsOptionsOfTheCommandLine) {
-  EXPECT_EQ(told(kMemory), "native: ran out of memory; try --backend cg, which needs no factor");
+TEST(Wording, NamesSettingsAsOptionsOfTheCommandLine) {
+  EXPECT_EQ(to_text(kMemory), "native: ran out of memory; try --backend cg, which needs no factor");
   const Warning warning{"it is wrong", {"use ", SettingHint{"method", {"wavefront"}}}};
-  EXPECT_EQ(told(warning), "it is wrong; use --method wavefront");
-  EXPECT_EQ(told(std::vector<Warning>{warning}),
+  EXPECT_EQ(to_text(warning), "it is wrong; use --method wavefront");
+  EXPECT_EQ(to_text(std::vector<Warning>{warning}),
             std::vector<std::string>{"it is wrong; use --method wavefront"});
   AccuracyReport report;
   report.verdict = "poor: 9 %";
   report.advice = {"with ", SettingHint{"time-factor", {"1"}}, " it is 1 %"};
-  EXPECT_EQ(told(report), "poor: 9 %; with --time-factor 1 it is 1 %");
+  EXPECT_EQ(to_text(report), "poor: 9 %; with --time-factor 1 it is 1 %");
 }
 
-TEST(Told, SaysWhereItHappenedInFront) {
+TEST(Wording, SaysWhereItHappenedInFront) {
   const Error placed = about("bunny", about("--weld", kMemory), ErrorCode::kBadFile);
   EXPECT_EQ(placed.code, ErrorCode::kBadFile);
-  EXPECT_EQ(told(placed),
+  EXPECT_EQ(to_text(placed),
             "bunny: --weld: native: ran out of memory; try --backend cg, which needs no factor");
 }
 
-TEST(Told, GivesAHintToWhatHasNone) {
-  EXPECT_EQ(told(with_hint({ErrorCode::kBadFile, "a;b.obj; c: no such file"}, {"check the path"})),
-            "a;b.obj; c: no such file; check the path");
+TEST(Wording, GivesAHintToWhatHasNone) {
+  EXPECT_EQ(
+      to_text(with_hint({ErrorCode::kBadFile, "a;b.obj; c: no such file"}, {"check the path"})),
+      "a;b.obj; c: no such file; check the path");
   EXPECT_EQ(with_hint(kMemory, {"check the path"}).hint, kMemory.hint);
 }
 
