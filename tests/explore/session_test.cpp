@@ -385,7 +385,7 @@ TEST(DiffusionTime, IsWhatTheMethodUses) {
     ASSERT_TRUE(session.submit(command::Set{"time-step", rule}));
     ASSERT_TRUE(session.submit(command::Open{"bunny"}));
     const HeatMethod& method = *session.explored().a->method->heat();
-    const double t = diffusion_time(method.options().time_step, *session.explored().model->mesh);
+    const double t = time_on_mesh(method.options().time_step, *session.explored().model->mesh);
     EXPECT_NEAR(t, method.t(), 1e-12 * method.t()) << rule;
   }
 }
