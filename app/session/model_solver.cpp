@@ -164,10 +164,11 @@ Result<std::vector<Index>> ModelSolver::nearest_sources(const SourceSet& sources
   auto result =
       (*method)->solve(sources, {.quality = false, .nearest = true}, part_of(progress, 0.5, 1.0));
   if (!result) return about_model(model_.name, result.error());
-  for (std::size_t v = 0; v < distances.size(); ++v) {
-    if (!std::isfinite(distances[v])) result->nearest_source[v] = kNoIndex;
+  std::vector<Index>& nearest = result->nearest_source;
+  for (std::size_t v = 0; v < nearest.size(); ++v) {
+    if (!std::isfinite(distances[v])) nearest[v] = kNoIndex;
   }
-  return std::move(result->nearest_source);
+  return std::move(nearest);
 }
 
 /// Leaves of an answer what is within reach, as distances of all vertices.

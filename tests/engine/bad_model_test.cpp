@@ -119,6 +119,9 @@ TEST_F(OddData, OfACameraInsideTheModelShowsItsInside) {
   Camera& camera = stage.scene.camera;
   stage.look({.azimuth = 0, .elevation = 0});
   camera.view = glm::mat4(1);  // the eye at the origin
+  constexpr float kNear = 0.01F, kFar = 3;
+  camera.projection[2][2] = kNear / (kFar - kNear);
+  camera.projection[3][2] = kNear * kFar / (kFar - kNear);
   const Marker marker{{0, 0, 0.99F}, {0, 0, -0.99F}};
   must(stage.renderer.set_markers({&marker, 1}));
   const std::vector<glm::vec3> field(stage.model.faces.size(), glm::vec3(0, 1, 0));
@@ -127,11 +130,11 @@ TEST_F(OddData, OfACameraInsideTheModelShowsItsInside) {
   stage.scene.surface.wire = true;
   stage.scene.background = {1, 1, 1, 0};
   const Image image = stage.draw();
+  int holes = 0;
   for (int y = 0; y < image.height; ++y) {
-    for (int x = 0; x < image.width; ++x) {
-      ASSERT_EQ(image.at(x, y)[3], 255) << "a hole at " << x << ' ' << y;
-    }
+    for (int x = 0; x < image.width; ++x) holes += image.at(x, y)[3] < 255 ? 1 : 0;
   }
+  EXPECT_EQ(holes, 0);
 }
 
 TEST_F(OddData, OfAnEmptyModelIsBackground) {
