@@ -52,4 +52,6 @@ if(TARGET geotherm)
   install(TARGETS geotherm RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}" COMPONENT program)
   install(DIRECTORY assets/models DESTINATION "${CMAKE_INSTALL_DATADIR}/geotherm"
           COMPONENT program)
+  install(DIRECTORY docs DESTINATION "${CMAKE_INSTALL_DOCDIR}" COMPONENT program
+          PATTERN site EXCLUDE)
 endif()

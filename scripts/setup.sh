@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# Installs what is missing to build geotherm, and nothing else. Debian 12, Ubuntu 22.04 and later.
+# Installs what is missing to build geotherm, and nothing else. Debian 12, Ubuntu 24.04 and later.
 set -euo pipefail
 
 usage() {

@@ -29,10 +29,11 @@ lines_apart() {
     { print }
     END { if (apart) print ".fi" }'
 }
+version=$("$program" --version | cut -d ' ' -f 2)
 # help2man FILE NAME WHAT COMMAND...: the words of `geotherm COMMAND --help` as a page.
 page() {
   help2man --no-info --section 1 --source geotherm --manual "geotherm" --name "$2" \
-    --version-string "$("$program" --version)" --help-option "${3:-} --help" "$program" |
+    --version-string "$1 $version" --help-option "${3:-} --help" "$program" |
     lines_apart | gzip -9n >"$share/man/man1/$1.1.gz"
 }
 page geotherm "geodesic distance on meshes, points, volumes and grids"

@@ -58,6 +58,7 @@ Result<std::vector<double>> weights_in(const std::string& text) {
     return number_in<double>(word).has_value();
   };
   const bool in_file = !is_number(numbers.substr(0, numbers.find(',')));
+  const std::string where = in_file ? one_line(text) : "--weights";
   if (in_file) {
     const auto file = io::FileBytes::read(text);
     if (!file) return about("--weights", file.error());
@@ -69,14 +70,14 @@ Result<std::vector<double>> weights_in(const std::string& text) {
     const auto number = number_in<double>(word);
     if (!number || !(*number >= 0) || !std::isfinite(*number)) {
       return Error{in_file ? ErrorCode::kBadFile : ErrorCode::kBadInput,
-                   "--weights: '" + one_line(word) + "' is no weight",
+                   where + ": '" + one_line(word) + "' is no weight",
                    {"give numbers from 0 on with commas between, or a file of them"}};
     }
     out.push_back(*number);
   }
   if (std::ranges::any_of(out, [](double weight) { return weight > 0; })) return out;
   return Error{in_file ? ErrorCode::kBadFile : ErrorCode::kBadInput,
-               "--weights: none is above 0",
+               where + ": none is above 0",
                {"give one that is"}};
 }
 

@@ -35,8 +35,10 @@ Result<Index> faces_in(const GenerateArguments& arguments) {
     }
     return kMinModelFaces;  // the unknown name is the error to report
   }
-  const auto faces = number_in<Index>(arguments.faces);
-  if (faces && *faces >= kMinModelFaces && *faces <= kMaxModelFaces) return *faces;
+  const auto faces = count_in(arguments.faces);
+  if (faces && *faces >= kMinModelFaces && *faces <= kMaxModelFaces) {
+    return static_cast<Index>(*faces);
+  }
   return Error{
       ErrorCode::kBadInput,
       "--faces: '" + one_line(arguments.faces) + "' is no number of faces",
@@ -46,8 +48,10 @@ Result<Index> faces_in(const GenerateArguments& arguments) {
 Result<Index> tets_in(const GenerateArguments& arguments) {
   constexpr Index kUsual = 20'000;
   if (arguments.tets.empty()) return kUsual;
-  const auto tets = number_in<Index>(arguments.tets);
-  if (tets && *tets >= kMinVolumeTets && *tets <= kMaxVolumeTets) return *tets;
+  const auto tets = count_in(arguments.tets);
+  if (tets && *tets >= kMinVolumeTets && *tets <= kMaxVolumeTets) {
+    return static_cast<Index>(*tets);
+  }
   return Error{
       ErrorCode::kBadInput,
       "--tets: '" + one_line(arguments.tets) + "' is no number of tetrahedra",

@@ -96,7 +96,8 @@ Result<std::vector<double>> levels_up_to(double largest, const Levels& asked) {
 Warning no_line(const std::vector<double>& levels, double spacing, const Answer& figures) {
   const std::string largest = significant(figures.distance.max);
   if (!levels.empty()) {
-    return {"there is no line: no triangle is crossed by a level, of distances up to " + largest};
+    return {"there is no line: no triangle is crossed by a level, of distances up to " + largest,
+            {"give values below that"}};
   }
   return {"there is no line: the largest distance is " + largest + ", the first level " +
               significant(spacing),

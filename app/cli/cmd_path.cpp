@@ -84,22 +84,23 @@ Result<std::vector<std::vector<Source>>> pairs_of(const PathArguments& arguments
   for (int number = 1; std::getline(lines, line); ++number) {
     std::istringstream words(line.substr(0, line.find('#')));
     std::vector<Source> points;
-    const std::string where = "--pairs line " + std::to_string(number);
+    const std::string where = one_line(arguments.pairs) + ": line " + std::to_string(number);
     for (std::string word; words >> word;) {
       auto point = single_point(word, where);
-      if (!point) return point.error();
+      if (!point) return Error{ErrorCode::kBadFile, point.error().message, point.error().hint};
+      point->blame = ErrorCode::kBadFile;
       points.push_back(*std::move(point));
     }
     if (points.size() == 1) {
-      return Error{ErrorCode::kBadInput,
+      return Error{ErrorCode::kBadFile,
                    where + " has one point",
                    {"a path is two or more, with blanks between"}};
     }
     if (!points.empty()) routes.push_back(std::move(points));
   }
   if (!routes.empty()) return routes;
-  return Error{ErrorCode::kBadInput,
-               "--pairs: " + one_line(arguments.pairs) + " has no points",
+  return Error{ErrorCode::kBadFile,
+               one_line(arguments.pairs) + ": there are no points in it",
                {"write two or more a line"}};
 }
 

@@ -60,11 +60,11 @@ constexpr double kMaxShared = std::numeric_limits<Index>::max();
 constexpr double kMaxVertices = std::numeric_limits<Index>::max() / 3.0;
 
 Result<double> whole_number(const std::string& text, const char* option) {
-  const auto number = number_in<double>(text);
-  if (number && *number >= 1 && *number <= 1e15 && *number == std::floor(*number)) return *number;
+  const auto number = count_in(text);
+  if (number && *number >= 1) return static_cast<double>(*number);
   return Error{ErrorCode::kBadInput,
                std::string(option) + ": '" + one_line(text) + "' is no count",
-               {"give a whole number from 1, such as 2e6"}};
+               {"give a whole number from 1, such as 64 or 2e6"}};
 }
 
 struct SharedPlan {

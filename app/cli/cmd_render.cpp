@@ -126,8 +126,8 @@ void add_render_options(CLI::App& command, RenderArguments& arguments) {
       ->type_name("");
   command
       .add_option("--columns", arguments.columns,
-                  "of several models, default as many as suit the picture's shape; with the rows "
-                  "--grid 2x1")
+                  "columns of several models, default as many as suit the picture's shape; "
+                  "--grid COLUMNSxROWS gives both")
       ->type_name("N");
   command
       .add_option(

@@ -38,8 +38,9 @@ namespace {
 
 Result<Index> number_in_option(const std::string& text, const char* option, Index least,
                                const char* what) {
-  const auto number = number_in<Index>(text);
-  if (number && *number >= least) return *number;
+  const auto number = count_in(text);
+  constexpr Index kMax = std::numeric_limits<Index>::max();
+  if (number && *number >= least && *number <= kMax) return static_cast<Index>(*number);
   return Error{ErrorCode::kBadInput,
                std::string(option) + ": '" + one_line(text) + "' is no " + what,
                {"give a whole number from " + std::to_string(least)}};

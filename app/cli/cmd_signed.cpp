@@ -56,13 +56,22 @@ Result<std::vector<SurfacePath>> curves_in(const std::string& path, const Triang
     last = words[0];
     curves.back().points.push_back(point);
   }
-  return curves;
+  const auto is_one = [](const SurfacePath& curve) { return curve.points.size() > 1; };
+  if (std::ranges::any_of(curves, is_one)) return curves;
+  return Error{ErrorCode::kBadFile,
+               one_line(path) + ": there is no curve with two points or more in it",
+               {"give what geotherm path and isolines write"}};
 }
 
 /// The points of one curve, joined by geodesics.
 Result<SurfacePath> curve_through(const std::vector<std::string>& texts, bool closed,
                                   const Model& model, std::vector<Warning>& warnings,
                                   const Progress& progress) {
+  if (texts.size() == 1) {
+    return Error{ErrorCode::kBadInput,
+                 "--through: a curve has two points or more",
+                 {"give it once for each point"}};
+  }
   std::vector<SurfacePoint> points;
   for (const std::string& text : texts) {
     const auto source = single_point(text, "--through");

@@ -53,7 +53,8 @@ Result<void> add_lines(const std::string& path, const std::string& option,
     std::string joined;
     for (std::string word; words >> word;) joined += (joined.empty() ? "" : ":") + word;
     if (!joined.empty())
-      out.push_back({joined, option + " line " + std::to_string(number), ErrorCode::kBadFile});
+      out.push_back(
+          {joined, one_line(path) + ": line " + std::to_string(number), ErrorCode::kBadFile});
   }
   return {};
 }
@@ -100,8 +101,9 @@ Result<std::vector<AtVertex>> given_in(const SpreadArguments& arguments, const s
     const std::string named = where == option ? option + ' ' + one_line(text) : where;
     given.source = {VertexList{{given.vertex}}, named, blame};
     if (fine && parts == numbers + 1) continue;
-    return Error{ErrorCode::kBadInput,
-                 where + ": '" + one_line(text) + "' is none",
+    return Error{blame,
+                 where + ": '" + one_line(text) + "' is no " + (numbers == 2 ? "vector" : "value") +
+                     " at a vertex",
                  {std::string("write ") +
                   (numbers == 2 ? "VERTEX:X:Y, along e1 and e2 of the vertex" : "VERTEX:VALUE") +
                   (where == option ? "" : ", or the numbers with blanks between")}};

@@ -243,8 +243,6 @@ Result<std::vector<Command>> commands_of(const ViewArguments& arguments,
   state.reading = asked->reading;
   state.picture = *picture;
   state.picture.device.clear();
-  if (!arguments.settings.has("path-kind")) state.picture.path_kind = PathKind::kAll;
-  if (!arguments.settings.has("fit")) state.picture.camera.fit = PictureFit::kSphere;
   if (!arguments.model.empty()) {
     // Opening resets what belongs to a model, so it comes first.
     const auto opened = app::apply(initial_state(), command::Open{arguments.model});

@@ -367,7 +367,7 @@ Result<CommandOutput> run_render_sequence(const RenderArguments& arguments,
 
 struct ViewArguments {
   std::string model;
-  SettingArguments settings;
+  SettingArguments settings = {.usual = initial_state()};
   SourceArguments sources;
   PictureArguments picture;
   std::string sequence;      ///< Frames::open()'s path; empty: the model alone

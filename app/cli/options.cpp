@@ -80,7 +80,7 @@ std::vector<std::string_view> names_of(SettingGroup group, std::vector<std::stri
 
 void add_setting_options(CLI::App& command, SettingArguments& arguments,
                          const std::vector<std::string_view>& names) {
-  const ViewerState usual = usual_settings();
+  const ViewerState& usual = arguments.usual;
   for (const std::string_view name : names) {
     const Setting& setting = *find_setting(name);
     const auto take = [&arguments, name](const std::string& text) {
@@ -106,7 +106,7 @@ ViewerState usual_settings() {
 }
 
 Result<ViewerState> settings_in(const SettingArguments& arguments) {
-  ViewerState state = usual_settings();
+  ViewerState state = arguments.usual;
   for (const Setting& setting : settings()) {
     const auto typed = arguments.texts.find(setting.name);
     if (typed == arguments.texts.end()) continue;
@@ -135,16 +135,17 @@ void note_unused_picture(const SettingArguments& arguments, const std::vector<st
 void note_unused_settings(const SettingArguments& arguments, const MethodOptions& options,
                           std::vector<Warning>& warnings) {
   if (options.method != MethodKind::kHeat) {
-    const ViewerState usual = usual_settings();
     std::vector<std::string> unused;
     for (const Setting& setting : settings()) {
       const auto typed = arguments.texts.find(setting.name);
       if (!setting.of_heat || typed == arguments.texts.end()) continue;
-      if (typed->second != setting.get(usual)) unused.push_back("--" + std::string(setting.name));
+      if (typed->second != setting.get(arguments.usual))
+        unused.push_back("--" + std::string(setting.name));
     }
     if (unused.empty()) return;
     warnings.push_back({"the method " + to_text(options.method) + " does not use " + joined(unused),
-                        {"these are options of ", SettingHint{"method", {"heat"}}}});
+                        {unused.size() == 1 ? "it is an option of " : "these are options of ",
+                         SettingHint{"method", {"heat"}}}});
     return;
   }
   const auto factor = arguments.texts.find("time-factor");

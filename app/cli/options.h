@@ -21,9 +21,13 @@
 // models and sources, checks, pictures.
 namespace geotherm::app {
 
+/// What most commands begin with where nothing is typed.
+ViewerState usual_settings();
+
 /// Settings as typed: texts by name.
 struct SettingArguments {
-  std::map<std::string, std::string, std::less<>> texts;
+  std::map<std::string, std::string, std::less<>> texts = {};
+  ViewerState usual = usual_settings();  ///< what holds for those that are not typed
 
   bool has(std::string_view name) const { return texts.contains(name); }
 };
@@ -36,10 +40,7 @@ std::vector<std::string_view> names_of(SettingGroup group,
 void add_setting_options(CLI::App& command, SettingArguments& arguments,
                          const std::vector<std::string_view>& names);
 
-/// What a command begins with where nothing is typed.
-ViewerState usual_settings();
-
-/// Those with what was typed. Errors: kBadInput or kNotAvailable, with the option's name and what
+/// `usual` with what was typed. Errors: kBadInput or kNotAvailable, with the option's name and what
 /// is expected.
 Result<ViewerState> settings_in(const SettingArguments& arguments);
 

@@ -77,8 +77,9 @@ std::vector<std::string> typed_sources(const SourceArguments& arguments) {
 
 Result<Source> single_point(const std::string& text, const std::string& option) {
   auto spec = parse_source(text);
-  if (!spec) return about(option, spec.error());
-  if (is_single_point(*spec)) return Source{*std::move(spec), option + " " + one_line(text)};
+  if (!spec && text.find(':') != text.npos) return about(option, spec.error());
+  if (spec && is_single_point(*spec))
+    return Source{*std::move(spec), option + " " + one_line(text)};
   return Error{ErrorCode::kBadInput,
                option + ": '" + one_line(text) + "' is not one point",
                {"write a vertex id, face:ID:b0:b1:b2 or xyz:x:y:z"}};

@@ -172,8 +172,8 @@ Result<std::vector<double>> parse_values(const std::string& text) {
     const std::size_t end = std::min(text.find(',', from), text.size());
     const auto value = number_in<double>(trimmed(std::string_view(text).substr(from, end - from)));
     if (!value || !std::isfinite(*value)) {
-      return bad_value(text, "are no values of isolines",
-                       "give numbers between commas, such as 0.5,1,2, or auto");
+      return bad_value(text, "is no list of values of isolines",
+                       "give numbers between commas, such as 0.5,1,2");
     }
     values.push_back(*value);
     from = end + 1;

@@ -92,14 +92,14 @@ std::vector<Warning> unreached_notes(const MeshSummary& mesh, Index unreached,
   const Index loose = mesh.unreferenced_vertices;
   if (loose > 0) {
     notes.push_back({counted(loose, "vertex belongs", "vertices belong") +
-                     " to no face; their distance is infinite"});
+                     " to no face; the distance there is infinite"});
   }
   const Index lost = unreached - loose;
   if (lost > 0) {
     notes.push_back({counted(lost, "vertex lies", "vertices lie") +
                          " in components without a source (there are " +
                          counted(mesh.components, "component", "components") +
-                         "); their distance is infinite",
+                         "); the distance there is infinite",
                      whole != nullptr ? weld_hint(*whole, mesh.components) : Hint()});
   }
   return notes;

@@ -14,6 +14,7 @@
 #include "geotherm/accuracy.h"
 #include "geotherm/backend.h"
 #include "solver/core/stopwatch.h"
+#include "solver/core/text.h"
 
 namespace geotherm::app {
 namespace {
@@ -261,10 +262,13 @@ Result<MethodOptions> solver_named(const std::string& name, const MethodOptions&
   }
   const auto backend = find_backend(name);
   if (!backend) {
-    std::vector<std::string> methods = all_names<MethodKind>();
-    std::erase(methods, to_text(MethodKind::kHeat));
+    std::vector<std::string> names = backend_names();
+    for (const std::string& kind : all_names<MethodKind>()) {
+      if (kind != to_text(MethodKind::kHeat)) names.push_back(kind);
+    }
     Error error = backend.error();
-    error.hint.emplace_back("; other methods: " + joined(methods));
+    error.hint = {method ? "heat runs on a backend: name one of " + joined(backend_names())
+                         : geotherm::known_words(name, names)};
     return error;
   }
   options.method = MethodKind::kHeat;

@@ -64,7 +64,8 @@ Result<double> parse_time_factor(const Text& text) {
 Result<int> parse_threads(const Text& text) {
   const auto threads = number_in<int>(text);
   if (threads && *threads >= 0 && *threads <= kMaxThreads) return *threads;
-  return bad_value(text, "is no number of threads", "give 1 to " + std::to_string(kMaxThreads));
+  return bad_value(text, "is no number of threads",
+                   "give 1 to " + std::to_string(kMaxThreads) + ", or 0 for one a core");
 }
 
 /// In 2^20 bytes; 0: what is free.
@@ -95,8 +96,12 @@ Result<int> parse_refine(const Text& text) {
 
 Result<Text> parse_backend(const Text& text) {
   const auto backend = find_backend(text);
-  if (!backend) return backend.error();
-  return text;
+  if (backend) return text;
+  Error error = backend.error();
+  if (parse<MethodKind>(text)) {
+    error.hint = {text + " is a method: use ", SettingHint{"method", {text}}};
+  }
+  return error;
 }
 
 Result<Constraint> parse_constraint_option(const Text& text) {
@@ -270,10 +275,7 @@ std::vector<Setting> method_settings() {
                    "vertices",
            .detail = "Each time there are four times as many faces to solve on, and less error; "
                      "the distances shown are those at the model's own vertices.",
-           .values =
-               [] {
-                 return Names{"0", "1", "2", "3"};
-               }}),
+           .values = [] { return Names{"0", "1", "2", "3", "4", "5", "6"}; }}),
       choice<&ModelReading::domain>(
           {.name = "domain",
            .group = kModel,

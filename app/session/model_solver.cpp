@@ -244,7 +244,7 @@ void ModelSolver::describe_mesh(Answer& answer) const {
   if (unreached <= 0) return;
   answer.warnings.push_back({counted(unreached, "vertex is", "vertices are") + " in no " +
                              model_.space->words().cell +
-                             " that a source reaches; their distance is infinite"});
+                             " that a source reaches; the distance there is infinite"});
 }
 
 Result<Answer> ModelSolver::solve(const MethodOptions& options, const ResolvedSources& sources,

@@ -152,11 +152,11 @@ std::vector<Setting> picture_settings_table() {
                "where the plane of the slice is, 0 to 1 of the model's extent along its normal"}),
       {.name = "peel",
        .group = kPicture,
-       .value_name = "SIDE:SHARE",
+       .value_name = "SIDE[:SHARE]",
        .help =
            "draws only the tets (on a surface, the faces) whose distance is below or above this "
            "share of the largest",
-       .forms = "off, below:SHARE or above:SHARE",
+       .forms = "off, below[:SHARE] or above[:SHARE], a share of 0.5 where none is given",
        .detail = "All corners count. Where errors are shown, their size takes the place of the "
                  "distance.",
        .get = [](const State& s) { return peel_text(s.picture.peel); },

@@ -31,7 +31,11 @@ bool is_empty(std::string_view line) {
 Result<std::string> read_text(const std::string& path) {
   std::error_code unknown;
   if (std::filesystem::is_directory(path, unknown)) {
-    return Error{ErrorCode::kBadFile, one_line(path) + ": is a directory, not a script"};
+    return Error{
+        ErrorCode::kBadFile, one_line(path) + ": is a directory", {"name a file of commands"}};
+  }
+  if (!std::filesystem::exists(path, unknown)) {
+    return Error{ErrorCode::kBadFile, one_line(path) + ": no such file", {"check the path"}};
   }
   std::ifstream file(path, std::ios::binary);
   std::string text((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());

@@ -154,7 +154,7 @@ std::vector<Warning> mesh_warnings(const MeshReport& mesh) {
   }
   if (mesh.unreferenced_vertices > 0) {
     out.push_back({counted(mesh.unreferenced_vertices, "vertex belongs", "vertices belong") +
-                   " to no face; their distance is infinite"});
+                   " to no face; the distance there is infinite"});
   }
   if (mesh.nonmanifold_edges > 0) {
     out.push_back({counted(mesh.nonmanifold_edges, "edge has", "edges have") +

@@ -48,6 +48,13 @@ std::string counted(std::int64_t number, std::string_view one, std::string_view 
   return grouped(number) + " " + std::string(number == 1 ? one : many);
 }
 
+std::optional<std::int64_t> count_in(std::string_view text) {
+  constexpr double kMax = 9007199254740992.0;  // up to here doubles are exact
+  const auto number = number_in<double>(text);
+  if (!number || !(*number >= 0 && *number <= kMax) || *number != std::floor(*number)) return {};
+  return static_cast<std::int64_t>(*number);
+}
+
 std::string_view trimmed(std::string_view text) {
   constexpr std::string_view kBlank = " \t\r\n\f\v";
   const std::size_t begin = text.find_first_not_of(kBlank);

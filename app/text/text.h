@@ -52,6 +52,9 @@ std::optional<Number> number_in(std::string_view text) {
   return value;
 }
 
+/// The whole of `text` as a count, in digits or as 2e6; nothing below 0 or beyond 2^53.
+std::optional<std::int64_t> count_in(std::string_view text);
+
 /// The text with line ends in place of some blanks: no line longer than `width` unless a word is.
 std::string wrapped(const std::string& text, std::size_t width);
 

@@ -177,8 +177,8 @@ bool is_cut_off(const HeatOptions& options, const CellCounts& cells) {
          cells.without_direction > kBoundaryShare * cells.in_reach;
 }
 
-void add_lost_cells(const HeatOptions& options, const CellCounts& cells, const char* names,
-                    DistanceResult& result) {
+void add_lost_cells(const HeatOptions& options, double unit_t, const CellCounts& cells,
+                    const char* names, DistanceResult& result) {
   const bool dirichlet = options.boundary == BoundaryRule::kDirichlet;
   const bool mostly_boundary = is_cut_off(options, cells);
   const Index lost = mostly_boundary ? cells.without_direction : result.quality.zero_gradient_faces;
@@ -189,7 +189,8 @@ void add_lost_cells(const HeatOptions& options, const CellCounts& cells, const c
            share(lost, static_cast<std::size_t>(cells.in_reach)) +
            (dirichlet ? ": the boundary, held at 0, cuts them off"
                       : ", distances there follow their surroundings"),
-       dirichlet ? other_boundary_rule() : time_hint("raise ", options.time_step.rule)});
+       dirichlet ? other_boundary_rule()
+                 : time_hint(unit_t > 1 ? "lower " : "raise ", options.time_step.rule)});
 }
 
 void add_clamped_vertices(const HeatOptions& options, BelowLine below, DistanceResult& result) {
@@ -238,11 +239,9 @@ Error with_time_hint(Error error, double unit_t, TimeRule rule) {
   const bool numerical =
       error.code == ErrorCode::kNumericalFailure || error.code == ErrorCode::kBudgetEnded;
   if (!numerical || !is_extreme_time(unit_t)) return error;
-  const std::string words = "t is " + rounded_text(unit_t) + " squared mean edges, so try a " +
-                            (unit_t > 1 ? "smaller " : "larger ");
-  const Hint time = time_hint((error.hint.empty() ? "" : "; ") + words, rule);
-  error.hint.insert(error.hint.end(), time.begin(), time.end());
-  error.hint.emplace_back(" first");
+  error.hint = time_hint("t is " + rounded_text(unit_t) + " squared mean edges: try a " +
+                             (unit_t > 1 ? "smaller " : "larger "),
+                         rule);
   return error;
 }
 
@@ -250,7 +249,7 @@ Result<void> assess_heat(const HeatOptions& options, double unit_t, const CellCo
                          DistanceResult& result, double usual_heat_residual,
                          const char* cell_names) {
   const Quality& q = result.quality;
-  add_lost_cells(options, cells, cell_names, result);
+  add_lost_cells(options, unit_t, cells, cell_names, result);
   const bool raises = uses_what_is_known(options) && q.lines_checked;
   const BelowLine below = raises ? BelowLine::kRaised : BelowLine::kKept;
   add_clamped_vertices(options, below, result);

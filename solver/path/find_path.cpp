@@ -226,7 +226,9 @@ Result<FoundPath> PathFinder::through(std::span<const SurfacePoint> points,
                                       const PathOptions& options, const Progress& progress) const {
   if (points.size() < 2) {
     return Error{ErrorCode::kBadInput,
-                 "a path needs two points; " + std::to_string(points.size()) + " were given"};
+                 "a path needs two points or more, and " + std::to_string(points.size()) +
+                     (points.size() == 1 ? " was given" : " were given"),
+                 {"give another one"}};
   }
   std::vector<SurfacePoint> stops(points.begin(), points.end());
   if (options.closed) stops.push_back(stops.front());

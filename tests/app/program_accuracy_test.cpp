@@ -68,6 +68,16 @@ Words with(Words words, const Words& more) {
   return words;
 }
 
+TEST_F(ProgramAccuracy, NeverAsksForATimeThatIsLargerStill) {
+  const Json lost = solved({"bunny", "-s", "0", "--time-factor", "1e14"})["warnings"];
+  ASSERT_FALSE(lost.empty());
+  for (const Json& warning : lost) {
+    EXPECT_EQ(warning.get<std::string>().find("raise"), std::string::npos) << warning;
+  }
+  expect_refused({"solve", "bunny", "-s", "0", "--time-factor", "1e20"},
+                 "t is 1e+20 squared mean edges: try a smaller --time-factor");
+}
+
 TEST_F(ProgramAccuracy, SaysWhatWasInsertedAndWhy) {
   EXPECT_TRUE(write_mesh(folder.path("points.ply"), *finish(random_delaunay(300, 5))));
   const Json options = solved({"points.ply", "-s", "5"})["options"];

@@ -123,7 +123,8 @@ TEST_F(Program, WhatIsSpreadCanStandInAFile) {
                           "--vector", "5:1:1", "--json", "-"});
   EXPECT_EQ(said["vectors"], same["vectors"]);
   folder.write("values.txt", "17 1\n900\n");
-  expect_refused({"extend", "bunny", "--values", "values.txt"}, "--values line 2: '900'");
+  expect_refused({"extend", "bunny", "--values", "values.txt"},
+                 "values.txt: line 2: '900' is no value at a vertex");
   expect_refused({"extend", "bunny"}, "--value");
 }
 

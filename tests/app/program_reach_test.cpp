@@ -178,7 +178,7 @@ TEST_F(Program, PathsOfAFileGoThroughThePointsOfALine) {
   folder.write("one.txt", "17\n");
   expect_refused({"path", "bunny", "--pairs", "one.txt"}, "line 1 has one point");
   folder.write("none.txt", "\n");
-  expect_refused({"path", "bunny", "--pairs", "none.txt"}, "has no points");
+  expect_refused({"path", "bunny", "--pairs", "none.txt"}, "none.txt: there are no points in it");
   expect_refused({"path", "bunny", "--pairs", "pairs.txt", "--from", "3"}, "leave --from");
   expect_refused({"path", "bunny", "--to", "3"}, "--from and --to");
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The table of settings: one entry is an option, its help, a command and a key of the JSON.
+#include "app/cli/commands.h"
 #include "app/cli/options.h"
 
 #include <gtest/gtest.h>
@@ -95,6 +96,10 @@ TEST(SettingsOptions, HelpNamesTheValuesAndTheDefault) {
                            "auto (default), cotan, intrinsic-delaunay", "--strict"}) {
     EXPECT_NE(help.find(part), std::string::npos) << part << help;
   }
+  CLI::App viewer;  // which begins with other settings
+  app::ViewArguments view;
+  add_view_options(viewer, view);
+  EXPECT_NE(viewer.help().find("sphere (default)"), std::string::npos);
   for (const char* name : {"time-step", "constraint"}) {  // their forms are written by hand
     const Setting& setting = *app::find_setting(name);
     for (const std::string& value : setting.values()) {

@@ -30,6 +30,8 @@ grep -q 'model/x-ply' "$folder/mime/globs2"
     page=$share/man/man1/geotherm-$command.1.gz
     MANWIDTH=200 man --warnings -l "$page" >"$folder/page" 2>"$folder/said"
     test ! -s "$folder/said" || { cat "$folder/said"; exit 1; }
+    test "$(lexgrog "$page" | sed 's/.*: "\([^ ]*\) - .*/\1/')" = "geotherm-$command" ||
+      { echo "the page of $command has another name"; exit 1; }
     grep -q "geotherm $command" "$folder/page" || { echo "no page of $command"; exit 1; }
     "$build/geotherm" "$command" --help | sed -n '/^Examples:/,$s/^  //p' >"$folder/examples"
     while read -r example; do  # each on its line
