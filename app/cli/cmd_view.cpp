@@ -243,6 +243,8 @@ Result<std::vector<Command>> commands_of(const ViewArguments& arguments,
   state.reading = asked->reading;
   state.picture = *picture;
   state.picture.device.clear();
+  // A window is turned, and is no picture whose fit follows from what it is.
+  state.picture.camera.fit = asked->picture.camera.fit;
   if (!arguments.model.empty()) {
     // Opening resets what belongs to a model, so it comes first.
     const auto opened = app::apply(initial_state(), command::Open{arguments.model});

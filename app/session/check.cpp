@@ -23,7 +23,10 @@ std::string graded(const AccuracyReport& report) {
 
 }  // namespace
 
-AccuracyReport unchecked(MethodKind method, Check check) {
+AccuracyReport unchecked(MethodKind method, Check check, bool is_reference) {
+  if (is_reference) {
+    return unmeasured(method, to_text(method) + " is the reference here, and nothing is better");
+  }
   if (method == MethodKind::kExact) {
     return unmeasured(method, "this is the most accurate method there is");
   }

@@ -111,7 +111,8 @@ MethodKind ModelSolver::reference_of_better(MethodKind kind, Check check) const 
 
 bool ModelSolver::is_better(MethodKind a, MethodKind b) const {
   if (!model_.space) return geotherm::is_better(a, b);
-  return a == model_.space->reference_method() && b == MethodKind::kHeat;
+  return a == model_.space->reference_method() &&
+         (b == MethodKind::kHeat || geotherm::is_better(a, b));
 }
 
 std::vector<MethodKind> ModelSolver::better_methods(MethodKind poor, Check check) const {
@@ -161,7 +162,9 @@ Result<AccuracyReport> ModelSolver::hold(const CheckedAnswers& answers, MethodKi
                                          Check check, const DistanceMethod& beside,
                                          const Progress& progress) {
   const MethodKind checked = answers.method.kind();
-  if (!is_better(kind, checked)) return unchecked(checked, check);
+  if (!is_better(kind, checked)) {
+    return unchecked(checked, check, model_.space && kind == checked);
+  }
   const auto solved = solve_reference(kind, answers, beside, progress);
   if (!solved && solved.error().code == ErrorCode::kCancelled) return solved.error();
   if (!solved) return failed_check(checked, solved.error());
@@ -250,7 +253,9 @@ Result<CheckedMethod> ModelSolver::check_method(const ReadyMethod& ready,
     const MethodKind near_exact =
         model_.space ? model_.space->reference_method() : MethodKind::kWavefront;
     if (!is_better(near_exact, by.options.method) && searches) {
-      return SampleCheck{unchecked(by.options.method, settings.against), all.size(), 0};
+      const bool is_reference = model_.space && near_exact == by.options.method;
+      return SampleCheck{unchecked(by.options.method, settings.against, is_reference), all.size(),
+                         0};
     }
     auto results = by.method->solve_each(sets, {.quality = false}, part_of(part, 0.0, 0.2));
     if (!results) return about_model(model_.name, results.error());

@@ -48,7 +48,7 @@ Result<void> refuse_ranks(const std::string& what) {
   return Error{
       ErrorCode::kBadInput,
       what + " works in one process, and was started as " + std::to_string(count),
-      {"start it without mpirun; batch, sample and solve with --each or --pairs share their work, "
+      {"start it without mpirun; batch, sample and solve with each or pairs share their work, "
        "and solve shares one mesh with ",
        SettingHint{"backend", {"petsc"}}, " or ", SettingHint{"method", {"wavefront"}}}};
 }

@@ -56,7 +56,7 @@ class Collector {
                      {"join its ends by a path"}};
       }
       faces.push_back(face);
-      add_piece(points[i], points[i + 1], face);
+      add_piece(points[i], points[i + 1], face, number);
     }
     for (std::size_t i = 1; i < faces.size(); ++i) pass(points[i], faces[i - 1], faces[i]);
     const bool closed = points.size() > 2 && same_place(points.front(), points.back());
@@ -89,7 +89,7 @@ class Collector {
     return apart < kRounded;
   }
 
-  void add_piece(const SurfacePoint& a, const SurfacePoint& b, Index face) {
+  void add_piece(const SurfacePoint& a, const SurfacePoint& b, Index face, std::size_t curve) {
     const auto from = weights_in(surface_, a, face), to = weights_in(surface_, b, face);
     std::vector<Index> faces = {face};
     for (int k = 0; k < 3; ++k) {
@@ -102,7 +102,7 @@ class Collector {
     }
     for (const Index f : faces) {
       out_.pieces.push_back({f, *weights_in(surface_, a, f), *weights_in(surface_, b, f),
-                             1.0 / static_cast<double>(faces.size())});
+                             1.0 / static_cast<double>(faces.size()), curve});
     }
   }
 

@@ -14,7 +14,8 @@ namespace geotherm {
 struct CurvePiece {
   Index face;
   std::array<double, 3> from, to;
-  double share = 1;  ///< 1 over the number of faces in which it stands
+  double share = 1;       ///< 1 over the number of faces in which it stands
+  std::size_t curve = 0;  ///< its number
 };
 
 /// Pieces of directed curves.

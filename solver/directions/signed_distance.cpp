@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <new>
 #include <numeric>
 #include <optional>
@@ -27,8 +28,14 @@ class Parts {
     std::iota(root_.begin(), root_.end(), Index{0});
   }
 
-  /// False where they are no sides of the curves.
-  bool find() {
+  enum class Sides {
+    kFound,
+    kNone,         ///< no piece has a side: the curves go there and back
+    kContrary,     ///< a part is left of one curve and right of another
+    kNotSeparate,  ///< a part is on both sides of one curve
+  };
+
+  Sides find() {
     const EdgeTable& edges = state_.paths.edges();
     for (Index e = 0; e < edges.edge_count(); ++e) {
       if (curves_.touched[e] == 0 && !on_curve(edges.low(e)) && !on_curve(edges.high(e))) {
@@ -36,13 +43,19 @@ class Parts {
       }
     }
     vote();
+    bool fits = true;
     for (Index e = 0; e < edges.edge_count(); ++e) {
       const Index a = edges.low(e), b = edges.high(e);
       if (curves_.touched[e] == 0 || on_curve(a) || on_curve(b)) continue;
       const bool crossed = curves_.crossings[e] % 2 != 0;
-      if (crossed != (sign(a) != sign(b))) return false;
+      fits = fits && crossed == (sign(a) != sign(b));
     }
-    return std::ranges::none_of(votes_, [](const Votes& v) { return v.left > 0 && v.right > 0; });
+    if (beside_.empty()) return Sides::kNone;
+    const auto on_both = [](const auto& each) { return each.second == (kLeft | kRight); };
+    if (std::ranges::any_of(beside_, on_both)) return Sides::kNotSeparate;
+    const auto is_torn = [](const Votes& v) { return v.left > 0 && v.right > 0; };
+    if (std::ranges::any_of(votes_, is_torn)) return Sides::kContrary;
+    return fits ? Sides::kFound : Sides::kNotSeparate;
   }
 
   /// -1 to the left of the curves, 1 to the right, 0 where they are not.
@@ -55,6 +68,7 @@ class Parts {
   struct Votes {
     int left = 0, right = 0;
   };
+  enum : int { kLeft = 1, kRight = 2 };
 
   bool on_curve(Index v) const { return curves_.on_curve[v] != 0; }
   Index find_root(Index v) {
@@ -73,18 +87,21 @@ class Parts {
       const CurveLayout at = state_.layout(face);
       for (int k = 0; k < 3; ++k) {
         if (on_curve(state_.paths.face(face)[k])) continue;
-        const double side = side_of(at, at[k], {pieces.data() + begin, pieces.data() + end});
-        Votes& votes = votes_[find_root(state_.paths.face(face)[k])];
-        if (side > 0) ++votes.left;
-        if (side < 0) ++votes.right;
+        const auto [side, curve] = side_of(at, at[k], {pieces.data() + begin, pieces.data() + end});
+        if (side == 0) continue;
+        const Index part = find_root(state_.paths.face(face)[k]);
+        beside_[{part, curve}] |= side > 0 ? kLeft : kRight;
+        ++(side > 0 ? votes_[part].left : votes_[part].right);
       }
     }
   }
 
-  static double side_of(const CurveLayout& at, const Point2& p,
-                        std::span<const CurvePiece> pieces) {
+  /// Above 0 to the left, and of which curve.
+  static std::pair<double, std::size_t> side_of(const CurveLayout& at, const Point2& p,
+                                                std::span<const CurvePiece> pieces) {
     constexpr double kAsNear = 1e-9, kOnTheLine = 1e-12;
     double nearest = kUnreached, side = 0;
+    std::size_t curve = 0;
     const double size = (at[1] - at[0]).norm() + (at[2] - at[0]).norm();
     for (const CurvePiece& piece : pieces) {
       const Point2 from = place_of(at, piece.from), along = place_of(at, piece.to) - from;
@@ -95,15 +112,17 @@ class Parts {
       if (distance > nearest + kAsNear * size) continue;
       if (distance < nearest - kAsNear * size) side = 0;
       nearest = std::min(nearest, distance);
+      curve = piece.curve;
       side += cross(along, p - from) / length;
     }
-    return std::abs(side) > kOnTheLine * size ? side : 0;
+    return {std::abs(side) > kOnTheLine * size ? side : 0, curve};
   }
 
   const Directions::State& state_;
   const CurvePieces& curves_;
   std::vector<Index> root_;
   std::vector<Votes> votes_;
+  std::map<std::pair<Index, std::size_t>, int> beside_;  ///< sides of a curve that a part is on
 };
 
 /// Every piece, and every point of the curves: there they may bend.
@@ -134,10 +153,21 @@ Result<SignedDistance> Directions::signed_distance(std::span<const SurfacePath> 
   const auto pieces = curve_pieces(state.paths, curves);
   if (!pieces) return pieces.error();
   Parts parts(state, *pieces);
-  if (!parts.find()) {
-    return Error{ErrorCode::kBadInput,
-                 "the curves do not separate the surface into what is left and right of them",
-                 {"close them, or use ", SettingHint{"rule", {"heat"}}}};
+  switch (parts.find()) {
+    case Parts::Sides::kFound:
+      break;
+    case Parts::Sides::kNone:
+      return Error{ErrorCode::kBadInput,
+                   "the curves have no left and right, for they go there and back",
+                   {"give each piece once"}};
+    case Parts::Sides::kContrary:
+      return Error{ErrorCode::kBadInput,
+                   "part of the surface is left of one curve and right of another",
+                   {"turn some of them round, or ask for one at a time"}};
+    case Parts::Sides::kNotSeparate:
+      return Error{ErrorCode::kBadInput,
+                   "the curves do not separate the surface into what is left and right of them",
+                   {"close them, or use ", SettingHint{"rule", {"heat"}}}};
   }
   Propagation windows(state.windows);
   if (auto done = windows.run(seeds_of(state, *pieces), progress); !done) return done.error();
@@ -161,7 +191,11 @@ Result<SignedDistance> signed_distance(const SignedSetup& setup,
     const auto directions = setup.directions(part_of(progress, 0, 0.1));
     if (!directions) return directions.error();
     auto found = (*directions)->signed_distance(curves, part_of(progress, 0.1, 1));
-    if (found || rule == SideRule::kSides || found.error().code == ErrorCode::kCancelled) {
+    const auto is_heat = [](const auto& part) {
+      const auto* const setting = std::get_if<SettingHint>(&part);
+      return setting != nullptr && setting->name == "rule";
+    };
+    if (found || rule == SideRule::kSides || std::ranges::none_of(found.error().hint, is_heat)) {
       return found;
     }
     no_sides = found.error();

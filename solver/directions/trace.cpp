@@ -153,16 +153,29 @@ class Tracer {
     }
     if (!(rest_ > 0)) return end(TraceEnd::kLength);
     const auto& vertex = fans_.vertex(v);
-    if (vertex.kind != TangentFans::Kind::kInner) {
-      const bool boundary = vertex.kind == TangentFans::Kind::kBoundary;
-      return end(boundary ? TraceEnd::kBoundary : TraceEnd::kSplit);
-    }
+    const bool inner = vertex.kind == TangentFans::Kind::kInner;
+    const bool boundary = vertex.kind == TangentFans::Kind::kBoundary;
+    if (!inner && !boundary) return end(TraceEnd::kSplit);
     const auto& here = fans_.corner(3 * face_ + corner);
     const Point2 first = at_[next_corner(corner)] - at_[corner];
     const double back =
         std::clamp(std::atan2(-cross(first, direction_), -first.dot(direction_)), 0.0, here.angle);
     const double angle = here.begin + (here.against ? here.angle - back : back);
-    go_from_vertex(v, angle + vertex.angle / 2);
+    if (inner) {
+      go_from_vertex(v, angle + vertex.angle / 2);
+    } else if (!go_along_border(v, angle)) {
+      end(TraceEnd::kBoundary);
+    }
+  }
+
+  /// A line that came along the border to a vertex, in this direction of the fan, goes on where the
+  /// surface has room for half a turn: along the border where that is straight.
+  bool go_along_border(Index v, double angle) {
+    constexpr double kRound = 1e-6, kHalfTurn = std::numbers::pi;  // positions may be floats
+    const double all = fans_.vertex(v).angle;
+    const bool at_begin = angle < kRound;
+    if ((!at_begin && angle < all - kRound) || all < kHalfTurn - kRound) return false;
+    return go_from_vertex(v, std::clamp(at_begin ? kHalfTurn : all - kHalfTurn, 0.0, all));
   }
 
   bool go_from_vertex(Index v, double angle) {

@@ -141,6 +141,42 @@ double GridLattice::measure() const {
   return product;
 }
 
+bool is_same_slowness(double slowness, double other) {
+  constexpr double kRoundOff = 1e-12;
+  return std::abs(slowness - other) <= kRoundOff * other;
+}
+
+bool GridLattice::is_in_sight(const GridPlace& sample, const GridPlace& place,
+                              double slowness) const {
+  GridPlace way{};
+  std::vector<double> cuts = {0, 1};  // shares of the way at which it enters another cell
+  for (int e = 0; e < dimension_; ++e) {
+    way[e] = place[e] - sample[e];
+    for (double i = 1; i < std::abs(way[e]); ++i) cuts.push_back(i / std::abs(way[e]));
+  }
+  std::sort(cuts.begin(), cuts.end());
+  const auto is_free = [&](double share, int side) {
+    Index lowest = 0;
+    for (int e = 0; e < dimension_; ++e) {
+      const bool before = (side >> e & 1) != 0;  // either side, where it runs inside a face
+      if (before && way[e] != 0) return false;
+      const auto at = static_cast<Index>(std::floor(sample[e] + share * way[e])) - (before ? 1 : 0);
+      if (at < 0 || at + 1 >= length_[e]) return false;
+      lowest += at * stride_[e];
+    }
+    return has_cell(lowest) && is_same_slowness(cell(lowest).slowness, slowness);
+  };
+  for (std::size_t i = 0; i + 1 < cuts.size(); ++i) {
+    if (cuts[i] == cuts[i + 1]) continue;
+    bool free = false;
+    for (int side = 0; side < 1 << dimension_; ++side) {
+      free = free || is_free((cuts[i] + cuts[i + 1]) / 2, side);
+    }
+    if (!free) return false;
+  }
+  return true;
+}
+
 bool GridLattice::has_edge(Index sample, int e) const {
   return grid_->speed(sample) > 0 && !at_end(sample, e) && grid_->speed(sample + stride_[e]) > 0;
 }

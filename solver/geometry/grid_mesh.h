@@ -22,6 +22,12 @@ struct GridCell {
   double slowness;               ///< the mean of its corners' 1 / speed
 };
 
+/// A place in samples along the D axes.
+using GridPlace = std::array<double, 3>;
+
+/// Whether two are the same but for the rounding of means.
+bool is_same_slowness(double slowness, double other);
+
 /// Which cells a grid has, and where. Axes with one sample alone are none: D are left.
 class GridLattice {
  public:
@@ -34,6 +40,7 @@ class GridLattice {
   /// Between samples along axis e of D, model units, above 0.
   double spacing(int e) const { return spacing_[e]; }
   Index stride(int e) const { return stride_[e]; }
+  Index length(int e) const { return length_[e]; }  ///< samples along it
   double mean_spacing() const;
   /// D-dimensional, of a cell with slowness 1; an edge's is the same: a corridor as wide as a cell.
   double measure() const;
@@ -53,6 +60,9 @@ class GridLattice {
   int cells_at(Index sample) const;
   /// The cell whose lowest corner this is. Precondition: has_cell().
   GridCell cell(Index sample) const;
+  /// Whether the straight line from a sample to a place runs through cells of this slowness alone.
+  /// Cost: that of the cells on it.
+  bool is_in_sight(const GridPlace& sample, const GridPlace& place, double slowness) const;
   /// Whether every sample that passes has speed 1.
   bool is_uniform() const { return uniform_; }
   /// Whether all samples that pass have the same speed.

@@ -31,7 +31,8 @@ void note_mollification(const IntrinsicMesh& intrinsic, std::vector<Warning>& wa
          " lengthened in " +
          counted_text(static_cast<std::size_t>(mollified.components), "component", "components") +
          ", by up to " + rounded_text(mollified.most) +
-         " mean edge lengths; distances across them may be too long by as much"});
+         " mean edge lengths; distances may be too long, by as much for each of them that is "
+         "crossed"});
   }
 }
 

@@ -257,7 +257,7 @@ Result<CellComplex> cells_of(const PolygonMesh& mesh) try {
                  "vertex " + std::to_string(v) + " has a coordinate that is not finite"};
   }
   io::PolygonCutter cutter(mesh.corners.size());
-  std::size_t left_out = 0;
+  std::size_t left_out = 0, meeting = 0;  // of them those that meet themselves
   std::vector<std::array<Index, 2>> edges;
   for (std::size_t f = 0; f + 1 < mesh.start.size(); ++f) {
     const std::int64_t begin = mesh.start[f], end = mesh.start[f + 1];
@@ -266,7 +266,9 @@ Result<CellComplex> cells_of(const PolygonMesh& mesh) try {
                                 std::to_string(end) + ", and there are " +
                                 std::to_string(mesh.corners.size()));
     }
-    const std::span<const Index> face(mesh.corners.data() + begin, mesh.corners.data() + end);
+    std::vector<Index> face(mesh.corners.begin() + begin, mesh.corners.begin() + end);
+    face.erase(std::unique(face.begin(), face.end()), face.end());
+    if (face.size() > 1 && face.front() == face.back()) face.pop_back();
     if (face.size() > kMaxCorners) {
       return bad_polygon(f, "has " + std::to_string(face.size()) + " corners, and at most " +
                                 std::to_string(kMaxCorners) +
@@ -285,6 +287,7 @@ Result<CellComplex> cells_of(const PolygonMesh& mesh) try {
         simple ? polygon_element(mesh.positions, face, cutter) : PolygonElement{};
     if (element.areas.empty()) {
       ++left_out;
+      meeting += face.size() > 3 && !simple ? 1 : 0;
       continue;
     }
     for (std::size_t k = 0; k < face.size(); ++k) {
@@ -303,12 +306,18 @@ Result<CellComplex> cells_of(const PolygonMesh& mesh) try {
       cells.virtual_vertices.push_back(element.apex);
     }
   }
+  const Hint as_triangles =
+      meeting > 0 ? Hint{"solve on the triangles that it is cut into"} : Hint();
   if (cells.measures.empty()) {
-    return Error{ErrorCode::kBadInput, "the mesh has no face with an area"};
+    return Error{ErrorCode::kBadInput,
+                 meeting > 0 ? "the mesh has no polygon that does not meet itself"
+                             : "the mesh has no face with an area",
+                 as_triangles};
   }
   if (left_out > 0) {
-    cells.notes.push_back({counted_text(left_out, "face was", "faces were") +
-                           " left out: no area, or a corner twice"});
+    cells.notes.push_back(
+        {counted_text(left_out, "face was", "faces were") + " left out: no area, or a corner twice",
+         as_triangles});
   }
   cells.on_boundary = ends_of_single_edges(std::move(edges), cells.vertices);
   return cells;

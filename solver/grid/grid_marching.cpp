@@ -15,14 +15,6 @@
 namespace geotherm {
 namespace {
 
-/// But for the rounding of means.
-bool is_same(double slowness, double other) {
-  constexpr double kRoundOff = 1e-12;
-  return std::abs(slowness - other) <= kRoundOff * other;
-}
-
-using GridPlace = std::array<double, 3>;  ///< in samples along the D axes
-
 /// One query.
 class GridMarch {
  public:
@@ -59,9 +51,7 @@ class GridMarch {
       for (int e = 0; e < d_; ++e) at[e] += point.weights[k] * corner[e];
     }
     sources_.push_back({at, 0, cell.slowness});
-    for (int k = 0; k < cell.count; ++k) {
-      start_at(cell.corners[k], line_from(sources_.back(), place_of(cell.corners[k])));
-    }
+    start_around(point.cell);
     return {};
   }
 
@@ -73,6 +63,8 @@ class GridMarch {
       const auto [distance, v] = queue_.top();
       queue_.pop();
       if (is(v, kFinal) || distance != distance_[v]) continue;  // it was changed meanwhile
+      // What lies between may have become final after the last neighbour.
+      if (see(v, nearest_[v]) && distance != distance_[v]) continue;
       if (distance > reach_) break;
       state_[v] |= kFinal;
       if (reach_ < kUnreached) near_.push_back({v, distance});
@@ -138,6 +130,27 @@ class GridMarch {
     if (distance >= distance_[v]) return;
     set(v, distance, static_cast<Index>(sources_.size()) - 1);
     state_[v] |= kSees;
+  }
+
+  /// Starts at the samples around the source that was added last, in the cell with this lowest
+  /// corner and in those beside it: see() would ask some of them for corners that are farther off.
+  void start_around(Index lowest) {
+    const Source& source = sources_.back();
+    for (int k = 0; k < 1 << (2 * d_); ++k) {
+      Index v = lowest;
+      bool there = true;
+      for (int e = 0; e < d_; ++e) {
+        const int step = (k >> (2 * e) & 3) - 1;  // from one before the cell to one behind it
+        const Index i = coordinate(lowest, e) + step;
+        there = there && i >= 0 && i < lattice_.length(e);
+        v += step * lattice_.stride(e);
+      }
+      if (!there || !(grid_.speed(v) > 0)) continue;
+      const GridPlace at = place_of(v);
+      if (lattice_.is_in_sight(at, source.place, source.slowness)) {
+        start_at(v, line_from(source, at));
+      }
+    }
   }
 
   void set(Index v, double distance, Index source) {
@@ -232,7 +245,7 @@ class GridMarch {
     }
     const Index next = neighbor(v, main, steps[main]);
     if (straight) {
-      if (next == kNoIndex || !is_same(1 / grid_.speed(v), s.slowness)) return false;
+      if (next == kNoIndex || !is_same_slowness(1 / grid_.speed(v), s.slowness)) return false;
     } else if (!is_free(v, steps, way, s.slowness)) {
       return false;
     }
@@ -266,7 +279,8 @@ class GridMarch {
         if ((k >> e & 1) != 0) turned[e] = -turned[e];
       }
       const Index lowest = cell_towards(v, turned);
-      if (lowest != kNoIndex && is_same(lattice_.cell(lowest).slowness, slowness)) return true;
+      if (lowest != kNoIndex && is_same_slowness(lattice_.cell(lowest).slowness, slowness))
+        return true;
     }
     return false;
   }

@@ -164,6 +164,15 @@ std::string place_text(const Vec3& p) {
   return "(" + rounded_text(p.x()) + ", " + rounded_text(p.y()) + ", " + rounded_text(p.z()) + ")";
 }
 
+/// The share by which a path is longer than a distance of that method only where it is not the
+/// shortest; more than any of methods that are not near exact.
+double error_of(MethodKind kind) {
+  constexpr double kOfExact = 1e-4, kOfWaves = 0.01;
+  if (kind == MethodKind::kExact) return kOfExact;
+  const bool waves = kind == MethodKind::kWavefront || kind == MethodKind::kWavefrontFine;
+  return waves ? kOfWaves : kUnreached;
+}
+
 /// The straight piece between two places of one face: on the surface nothing is shorter.
 std::optional<SurfacePath> straight_piece(const PathSurface& surface, const SurfacePoint& a,
                                           const SurfacePoint& b) {
@@ -351,7 +360,21 @@ Result<FoundPath> PathFinder::geodesic(const SurfacePoint& from, const SurfacePo
   auto path = search_geodesic(*surface_, {from, to, (*there)->distances, (*back)->distances}, known,
                               part_of(progress, 0.8, 1));
   if (!path) return path.error();
-  return FoundPath{*std::move(path), {}};
+  FoundPath found{*std::move(path), {}};
+  const double distance = to.is_vertex() ? (*there)->distances[static_cast<std::size_t>(to.vertex)]
+                          : from.is_vertex()
+                              ? (*back)->distances[static_cast<std::size_t>(from.vertex)]
+                              : kUnreached;
+  if (found.path.length > distance * (1 + error_of(method_->kind()))) {
+    const TriangleMesh& mesh = *surface_->mesh();
+    found.warnings.push_back({"from " + place_text(position_at(mesh, from)) + " to " +
+                              place_text(position_at(mesh, to)) +
+                              " no path was found that is as short as the distance, " +
+                              rounded_text(distance) + " by the method " +
+                              to_text(method_->kind()) + ": this one has " +
+                              rounded_text(found.path.length)});
+  }
+  return found;
 }
 
 }  // namespace geotherm

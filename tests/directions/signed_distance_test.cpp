@@ -161,6 +161,31 @@ TEST(SignedDistances, OfABrokenCircleComeFromHeat) {
   EXPECT_LT(worst(whole, want), 0.05 * kRadius);
 }
 
+TEST(SignedDistances, RefuseCurvesThatContradictEachOther) {
+  const MeshPtr mesh = finish(jittered_plane(14, 0.3, 3));
+  const auto ring = [&](double a, double b) {
+    return polygon(mesh, {{a, a, 0}, {b, a, 0}, {b, b, 0}, {a, b, 0}});
+  };
+  const SurfacePath inner = ring(0.4, 0.6), outer = ring(0.2, 0.8);
+  for (const SideRule rule : {SideRule::kAuto, SideRule::kSides}) {
+    const SurfacePath both[] = {inner, outer};
+    const auto torn = signed_distance(mesh, both, rule);
+    ASSERT_FALSE(torn);
+    EXPECT_NE(torn.error().message.find("left of one curve and right of another"),
+              std::string::npos);
+    const SurfacePath turned[] = {inner, reversed(outer)};
+    const auto between = signed_distance(mesh, turned, rule);
+    ASSERT_TRUE(between) << sentence(between.error());
+    EXPECT_EQ(between->rule, SideRule::kSides);
+  }
+  SurfacePath there = outer;
+  there.closed = false;
+  append(there, reversed(there));
+  const auto none = signed_distance(mesh, {&there, 1}, SideRule::kAuto);
+  ASSERT_FALSE(none);
+  EXPECT_NE(none.error().message.find("there and back"), std::string::npos) << none.error().message;
+}
+
 TEST(SignedDistances, RefuseWhatIsNoCurve) {
   const MeshPtr mesh = finish(plane_grid(4, 4, 1, 1));
   SurfacePath jump;

@@ -93,6 +93,25 @@ TEST(Traced, LinesPassVerticesOfAGridStraight) {
   }
 }
 
+TEST(Traced, LinesGoAlongABorderThatIsStraightAndEndAtItsCorners) {
+  const MeshPtr mesh = finish(plane_grid(8, 8, 1, 1));
+  const auto directions = directions_on(mesh);
+  const SurfacePoint from = SurfacePoint::at_vertex(grid_vertex(8, 4, 0));  // half-way
+  const auto frame = directions->frame_at(from);
+  ASSERT_TRUE(frame && frame->on_boundary);
+  for (const double direction : {0.0, frame->angle}) {
+    const auto line = directions->trace(from, direction, 0.3);
+    ASSERT_TRUE(line) << sentence(line.error());
+    EXPECT_EQ(line->end, TraceEnd::kLength) << direction;
+    const Vec3 way = position_at(*mesh, line->path.points.back()) - position_at(*mesh, from);
+    EXPECT_NEAR(way.norm(), 0.3, 1e-12) << direction;
+    const auto farther = directions->trace(from, direction, 3);
+    ASSERT_TRUE(farther);
+    EXPECT_EQ(farther->end, TraceEnd::kBoundary);
+    EXPECT_NEAR(farther->path.length, 0.5, 1e-12) << "to the corner of the square";
+  }
+}
+
 TEST(Traced, LineWindsRoundACylinder) {
   constexpr Index kAround = 24, kAlong = 40;
   const Draft draft = prism(kAround, kAlong, 2);

@@ -120,6 +120,7 @@ double over_the_border(double border, const Vec3& source, const Vec3& at) {
 
 std::vector<GridCase> grid_cases() {
   const Vec3 middle(0.5, 0.5, 0), corner = Vec3::Zero(), centre(0.5, 0.5, 0.5);
+  const Vec3 aside(0.5123, 0.6217, 0), between(0.5123, 0.6217, 0.4831);
   const Vec3 arm(0.9, 0.25, 0), slow(0.25, 0.25, 0);
   const double border = 0.5 + 0.5 / 128;  // half-way between the last slow sample and the next
   return {
@@ -129,6 +130,8 @@ std::vector<GridCase> grid_cases() {
       {"SquareFromItsCorner", square(129), corner, line_from(corner), 0.01, 1e-12},
       {"CubeFromItsCentreSlow", cube(33), centre, line_from(centre), 0.03, 1e-12},
       {"CubeFromItsCornerSlow", cube(33), corner, line_from(corner), 0.015, 1e-12},
+      {"SquareFromBetweenSamples", square(129), aside, line_from(aside), 0.01, 1e-12},
+      {"CubeFromBetweenSamples", cube(21), between, line_from(between), 0.03, 1e-12},
       {"RoundACorner", l_shape(129), arm,
        [arm](const Vec3& at) { return round_the_corner(arm, at); }, 0.015, 0.004},
       {"TwoSpeeds", two_speeds(129), slow,

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <map>
 #include <numbers>
+#include <numeric>
 #include <utility>
 
 #include "tests/support/cells.h"
@@ -233,6 +234,10 @@ TEST(Domains, SharesThatAreNoPartsOfOneAreOneLine) {
   }
 }
 
+double area_of(const CellComplex& cells) {
+  return std::accumulate(cells.measures.begin(), cells.measures.end(), 0.0);
+}
+
 TEST(Domains, FacesWithoutAreaAreLeftOutAndSaid) {
   PolygonMesh mesh = quads(4, 0);
   mesh.corners.insert(mesh.corners.end(), {0, 1, 0, 2, 2});
@@ -243,6 +248,26 @@ TEST(Domains, FacesWithoutAreaAreLeftOutAndSaid) {
   EXPECT_EQ(made->cell_count(), 16 * 4) << "triangles";
   ASSERT_EQ(made->notes.size(), 1U);
   EXPECT_NE(made->notes[0].message.find("2 faces were left out"), std::string::npos);
+}
+
+TEST(Domains, CornersSaidTwiceInTurnAreOneAndFacesThatMeetThemselvesAreSaid) {
+  PolygonMesh mesh = quads(4, 0);
+  const double before = area_of(*cells_of(mesh));
+  const Index last = mesh.corners.back();
+  mesh.corners.push_back(last);  // of the last square
+  ++mesh.start.back();
+  const auto same = cells_of(mesh);
+  ASSERT_TRUE(same) << sentence(same.error());
+  EXPECT_TRUE(same->notes.empty());
+  EXPECT_EQ(area_of(*same), before);
+  mesh.corners.insert(mesh.corners.end(), {0, 1, 6, 5, 1, 2});
+  mesh.start.push_back(mesh.start.back() + 6);
+  const auto met = cells_of(mesh);
+  ASSERT_TRUE(met);
+  ASSERT_EQ(met->notes.size(), 1U);
+  EXPECT_EQ(sentence(met->notes[0]),
+            "1 face was left out: no area, or a corner twice; solve on the triangles that it is "
+            "cut into");
 }
 
 }  // namespace

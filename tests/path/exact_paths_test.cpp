@@ -5,6 +5,7 @@
 #include <cmath>
 #include <random>
 
+#include "geotherm/build_method.h"
 #include "geotherm/io.h"
 #include "solver/path/streamline.h"
 #include "tests/path/path_support.h"
@@ -70,6 +71,47 @@ INSTANTIATE_TEST_SUITE_P(Meshes, ExactPaths, testing::ValuesIn(kCases), [](const
   std::erase_if(name, [](char c) { return std::isalnum(static_cast<unsigned char>(c)) == 0; });
   return name;
 });
+
+TEST(PathsOverNoise, ThatAreLongerThanTheDistanceSaySo) {
+  // A height field of noise whose slopes are about nine: no search finds the shortest ways there.
+  constexpr Index kSide = 45;
+  constexpr double kNoise = 0.2;
+  std::mt19937 random(7);
+  std::normal_distribution<double> height(0, kNoise);
+  std::vector<Vec3> positions;
+  std::vector<Face> faces;
+  for (Index i = 0; i < kSide * kSide; ++i) {
+    positions.emplace_back(double(i % kSide) / (kSide - 1), double(i / kSide) / (kSide - 1),
+                           height(random));
+  }
+  for (Index y = 0; y + 1 < kSide; ++y) {
+    for (Index x = 0; x + 1 < kSide; ++x) {
+      const Index a = y * kSide + x;
+      faces.push_back({a, a + 1, a + kSide + 1});
+      faces.push_back({a, a + kSide + 1, a + kSide});
+    }
+  }
+  const auto mesh = std::make_shared<const TriangleMesh>(
+      *TriangleMesh::build(std::move(positions), std::move(faces)));
+  MethodOptions options;
+  options.method = MethodKind::kExact;
+  const auto method = build_method(mesh, options);
+  ASSERT_TRUE(method);
+  const auto exact = (*method)->solve(SourceSet::of_vertices({0}));
+  ASSERT_TRUE(exact);
+  const PathFinder finder(mesh, *method);
+  int longer = 0;
+  for (Index target = 1; target < mesh->vertex_count(); target += 97) {
+    const SurfacePoint ends[] = {vertex(0), vertex(target)};
+    const auto path = finder.find(ends, {});
+    ASSERT_TRUE(path) << sentence(path.error());
+    const double share = path->path.length / exact->distances[target] - 1;
+    EXPECT_GE(share, -kExactData) << target;
+    EXPECT_EQ(path->warnings.empty(), share <= kGlobal) << target << ' ' << share;
+    longer += share > kGlobal ? 1 : 0;
+  }
+  EXPECT_GT(longer, 0) << "else this test tests nothing";
+}
 
 }  // namespace
 }  // namespace geotherm::test

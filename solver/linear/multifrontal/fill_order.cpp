@@ -88,6 +88,25 @@ std::array<GraphPart, 2> cut(const GraphPart& part, const Separator& separator,
   return halves;
 }
 
+/// An order of n vertices by approximate minimum degree (Amestoy, Davis, Duff 1996).
+/// neighbors(i): those of vertex i.
+template <class Neighbors>
+std::vector<Index> minimum_degree(Index n, const Neighbors& neighbors) {
+  Eigen::SparseMatrix<double> graph(n, n);
+  std::vector<int> counts(static_cast<std::size_t>(n));
+  for (Index i = 0; i < n; ++i) counts[i] = static_cast<int>(neighbors(i).size()) + 1;
+  graph.reserve(counts);
+  for (Index i = 0; i < n; ++i) {
+    graph.insert(i, i) = 1;
+    for (const Index j : neighbors(i)) graph.insert(j, i) = 1;
+  }
+  graph.makeCompressed();
+  Eigen::PermutationMatrix<Eigen::Dynamic, Eigen::Dynamic, int> inverse;
+  Eigen::AMDOrdering<int>()(graph.selfadjointView<Eigen::Lower>(), inverse);
+  const auto& indices = inverse.indices();
+  return {indices.data(), indices.data() + n};
+}
+
 void order_part(const SymmetricPattern& whole, GraphPart part, std::span<Index> out, int threads) {
   if (part.size() <= kSmallGraph) {
     order_small(whole, part, out);
@@ -95,8 +114,11 @@ void order_part(const SymmetricPattern& whole, GraphPart part, std::span<Index> 
   }
   const Separator separator = find_separator(part, threads);
   if (separator.count[kLeft] == 0 || separator.count[kRight] == 0) {
-    // Nothing to gain from cutting (a clique, say): any order is as good.
-    std::copy(part.vertex.begin(), part.vertex.end(), out.begin());
+    // Planes do not cut it: a clique, or two rings far apart of which one is all of the separator.
+    const std::vector<Index> order = minimum_degree(part.size(), [&part](Index i) {
+      return std::span(part.neighbor).subspan(part.start[i], part.start[i + 1] - part.start[i]);
+    });
+    for (std::size_t i = 0; i < order.size(); ++i) out[i] = part.vertex[order[i]];
     return;
   }
   std::array<GraphPart, 2> halves = cut(part, separator, out, threads);
@@ -109,23 +131,6 @@ void order_part(const SymmetricPattern& whole, GraphPart part, std::span<Index> 
       [&] {
         order_part(whole, std::move(halves[1]), out.subspan(left, right), threads - threads / 2);
       });
-}
-
-std::vector<Index> minimum_degree(const SymmetricPattern& pattern) {
-  const Index n = pattern.size();
-  Eigen::SparseMatrix<double> graph(n, n);
-  std::vector<int> counts(static_cast<std::size_t>(n));
-  for (Index i = 0; i < n; ++i) counts[i] = static_cast<int>(pattern.neighbors(i).size()) + 1;
-  graph.reserve(counts);
-  for (Index i = 0; i < n; ++i) {
-    graph.insert(i, i) = 1;
-    for (const Index j : pattern.neighbors(i)) graph.insert(j, i) = 1;
-  }
-  graph.makeCompressed();
-  Eigen::PermutationMatrix<Eigen::Dynamic, Eigen::Dynamic, int> inverse;
-  Eigen::AMDOrdering<int>()(graph.selfadjointView<Eigen::Lower>(), inverse);
-  const auto& indices = inverse.indices();
-  return {indices.data(), indices.data() + n};
 }
 
 }  // namespace
@@ -189,7 +194,7 @@ std::vector<Index> fill_reducing_order(const SymmetricPattern& pattern,
   if (placed && pattern.size() >= kDissectFrom) {
     return nested_dissection(pattern, positions, threads);
   }
-  return minimum_degree(pattern);
+  return minimum_degree(pattern.size(), [&pattern](Index i) { return pattern.neighbors(i); });
 }
 
 }  // namespace geotherm

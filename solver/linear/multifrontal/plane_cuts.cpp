@@ -58,8 +58,9 @@ struct Extent {
 };
 
 /// The directions that are swept, axes first, at most kLanes: where the part is thin along an axis,
-/// a diagonal between this axis and another is as good as the other axis.
-std::vector<Extent> find_extents(const GraphPart& part, int threads) {
+/// a diagonal between this axis and another is as good as the other axis. `thin_share`: kThin, or 0
+/// for all directions.
+std::vector<Extent> find_extents(const GraphPart& part, float thin_share, int threads) {
   constexpr std::size_t kCount = kDirections.size();
   std::array<float, kCount> low, high;
   const auto clear = [](std::array<float, kCount>& lowest, std::array<float, kCount>& highest) {
@@ -87,7 +88,7 @@ std::vector<Extent> find_extents(const GraphPart& part, int threads) {
   const float longest = std::max({high[0] - low[0], high[1] - low[1], high[2] - low[2]});
   const auto thin = [&](std::size_t d) {
     const float length = high[d] - low[d];
-    return !(length > kShortest) || length < kThin * longest;
+    return !(length > kShortest) || length < thin_share * longest;
   };
   std::vector<Extent> out;
   for (std::size_t d = 0; d < kCount; ++d) {
@@ -196,10 +197,8 @@ Separator cut(const Reaches& reaches, const Plane& plane) {
   return out;
 }
 
-}  // namespace
-
-std::vector<Separator> plane_cuts(const GraphPart& part, int most, int threads) {
-  const std::vector<Extent> extents = find_extents(part, threads);
+std::vector<Separator> cuts_along(std::span<const Extent> extents, const GraphPart& part, int most,
+                                  int threads) {
   const int bins = std::clamp(static_cast<int>(4 * std::sqrt(part.size())), 16, kMaxBins);
   const Reaches reaches = find_reaches(part, extents, bins, threads);
   std::vector<Plane> planes(extents.size());
@@ -223,6 +222,20 @@ std::vector<Separator> plane_cuts(const GraphPart& part, int most, int threads) 
                  }
                });
   return out;
+}
+
+}  // namespace
+
+std::vector<Separator> plane_cuts(const GraphPart& part, int most, int threads) {
+  const std::vector<Extent> extents = find_extents(part, kThin, threads);
+  std::vector<Separator> cuts = cuts_along(extents, part, most, threads);
+  // Across needles the shortest cut is along the direction in which the part is thin.
+  constexpr double kLarge = 4;  // times sqrt(n), which is what surfaces leave at most
+  if (!cuts.empty() && cuts.front().count[kSeparator] <= kLarge * std::sqrt(part.size())) {
+    return cuts;
+  }
+  const std::vector<Extent> all = find_extents(part, 0, threads);
+  return all.size() == extents.size() ? cuts : cuts_along(all, part, most, threads);
 }
 
 }  // namespace geotherm
