@@ -82,11 +82,11 @@ Result<CellComplex> cells_of(const Graph& graph);
 /// sides and a virtual vertex (Bunge, Herholz, Kazhdan, Botsch 2020), whose value is a mean of the
 /// corners': the harmonic one; or the k - 2 of triangulated(), where not all sides are seen from it
 /// or one of its triangles is nearly flat. Each is a cell, with all corners of the face and its
-/// number in the mesh. HeatMethod flips those that are far from Delaunay.
-/// Corners that repeat the one before are dropped; left out are faces without area, with fewer than
-/// three corners or with one twice. Errors
-/// (kBadInput, with the number): a corner out of range, a coordinate that is not finite, over 256
-/// corners in a face, no face that can be used. Cost: 3 k^2 numbers, k^3 steps for k corners.
+/// number in the mesh. HeatMethod flips those that are far from Delaunay. Corners that repeat the
+/// one before are dropped; faces without area, with fewer than three corners or with one twice are
+/// left out. Errors (kBadInput, with the number): a corner out of range, a coordinate that is not
+/// finite, over 256 corners in a face, no face that can be used. Cost: 3 k^2 numbers, k^3 steps for
+/// k corners.
 Result<CellComplex> cells_of(const PolygonMesh& mesh);
 
 /// Samples in a box, such as the pixels of an image or the voxels of a scan. Its vertices are the
