@@ -83,10 +83,9 @@ Result<CellComplex> cells_of(const Graph& graph);
 /// corners': the harmonic one; or the k - 2 of triangulated(), where not all sides are seen from it
 /// or one of its triangles is nearly flat. Each is a cell, with all corners of the face and its
 /// number in the mesh. HeatMethod flips those that are far from Delaunay. Corners that repeat the
-/// one before are dropped; faces without area, with fewer than three corners or with one twice are
-/// left out. Errors (kBadInput, with the number): a corner out of range, a coordinate that is not
-/// finite, over 256 corners in a face, no face that can be used. Cost: 3 k^2 numbers, k^3 steps for
-/// k corners.
+/// one before are dropped, faces without area, of under three corners or with one twice left out.
+/// Errors (kBadInput, with the number): a corner out of range, a coordinate that is not finite,
+/// over 256 corners in a face, no face to use. Cost: 3 k^2 numbers, k^3 steps for k corners.
 Result<CellComplex> cells_of(const PolygonMesh& mesh);
 
 /// Samples in a box, such as the pixels of an image or the voxels of a scan. Its vertices are the
