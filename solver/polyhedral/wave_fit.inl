@@ -10,9 +10,9 @@ namespace {
 constexpr double kFar = std::numeric_limits<double>::infinity();
 /// Below this share of h^2 the values along an edge fall as fast as they can: the wave runs along
 /// the edge, straight lines from its ends give the distances, and a fit would divide by zero.
-constexpr double kAlongEdge = 1e-5;
+constexpr double kAlongEdge = 1e-9;
 /// Below this the square of the wave's component across the edge counts as 0 for the same reason.
-constexpr double kGrazing = 1e-7;
+constexpr double kGrazing = 1e-12;
 /// Where a fit converges more than this (curvature times h), two fronts meet on the edge, and it is
 /// discarded.
 constexpr double kKink = -0.3;

@@ -61,6 +61,24 @@ const std::map<MethodKind, double> kRates = {{MethodKind::kWavefront, 1.5},
                                              {MethodKind::kWavefrontFine, 1.5},
                                              {MethodKind::kFastMarching, 0.3}};
 
+/// A strip of needles, a thousandth of a percent as wide as long at most: every wave grazes the
+/// long edges, and only rounding is lost.
+TEST(WavesOverNeedles, AreExactWhereTheWaveIsRound) {
+  constexpr Index kColumns = 300;
+  constexpr double kRoundOff = 1e-9;
+  for (const double width : {1e-2, 1e-3, 1e-4, 2e-5}) {
+    const MeshPtr mesh = finish(plane_grid(kColumns, 1, kColumns * width, 1));
+    const auto& positions = mesh->positions();
+    for (const MethodKind kind : kRoundWaves) {
+      const auto d = distances(mesh, kind, SourceSet::of_vertices({0}));
+      for (std::size_t v = 0; v < d.size(); ++v) {
+        ASSERT_NEAR(d[v], (positions[v] - positions[0]).norm(), kRoundOff)
+            << kind_name(kind) << ", width " << width << ", vertex " << v;
+      }
+    }
+  }
+}
+
 class Refinement : public testing::TestWithParam<MethodKind> {};
 
 TEST_P(Refinement, OfASphereConverges) {
