@@ -181,6 +181,9 @@ Result<CommandOutput> run_log_map(const LogMapArguments& arguments, const Progre
   note_unused_picture(arguments.settings, arguments.outputs, work->warnings);
   const auto reached =
       std::ranges::count_if(map->distances, [](double d) { return std::isfinite(d); });
+  if (options.max_distance == kUnreached && options.targets.empty()) {
+    note_unreached(mesh.vertex_count() - reached, "a source", work->warnings);
+  }
 
   CommandOutput out{"", work->warnings, {}};
   for (const std::string& path : arguments.outputs) {

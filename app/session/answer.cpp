@@ -105,6 +105,13 @@ std::vector<Warning> unreached_notes(const MeshSummary& mesh, Index unreached,
   return notes;
 }
 
+void note_unreached(std::int64_t vertices, const std::string& from,
+                    std::vector<Warning>& warnings) {
+  if (vertices <= 0) return;
+  warnings.push_back({counted(vertices, "vertex lies", "vertices lie") + " in components without " +
+                      from + "; the distance there is infinite"});
+}
+
 Error about_model(const std::string& name, const Error& error) {
   const bool of_mesh = error.code == ErrorCode::kBadInput && !is_about_setting(error);
   const ErrorCode code = of_mesh ? ErrorCode::kBadFile : error.code;

@@ -252,6 +252,8 @@ TEST_F(Program, RelaxedSamplesHaveTheEnergyOfEachStep) {
 TEST_F(Program, SpreadSaysWhatItDoesNotReach) {
   folder.write("two.obj",
                "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 5 0 0\nv 6 0 0\nv 5 1 0\nf 1 2 3\nf 4 5 6\n");
+  const ProgramRun map = run({"logmap", "two.obj", "-s", "0", "--json", "-"});
+  EXPECT_NE(map.err.find("3 vertices lie in components without a source"), std::string::npos);
   const std::string said = "3 vertices lie in components without a given ";
   for (const std::vector<std::string>& words :
        {std::vector<std::string>{"extend", "two.obj", "--value", "0:1", "--json", "-"},
