@@ -182,7 +182,7 @@ Result<CommandOutput> run_log_map(const LogMapArguments& arguments, const Progre
   const auto reached =
       std::ranges::count_if(map->distances, [](double d) { return std::isfinite(d); });
   if (options.max_distance == kUnreached && options.targets.empty()) {
-    note_unreached(mesh.vertex_count() - reached, "a source", work->warnings);
+    note_unreached(mesh, map->distances, "a source", work->warnings);
   }
 
   CommandOutput out{"", work->warnings, {}};

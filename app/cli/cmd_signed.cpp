@@ -221,7 +221,7 @@ Result<CommandOutput> run_signed(const SignedArguments& arguments, const Progres
     least = std::min(least, d);
     most = std::max(most, d);
   }
-  note_unreached(model->mesh->vertex_count() - reached, "a curve", warnings);
+  note_unreached(*model->mesh, found->distances, "a curve", warnings);
 
   CommandOutput out{"", warnings, {}};
   for (const std::string& path : arguments.outputs) {

@@ -49,12 +49,6 @@ Result<void> check_extensions(const SolveArguments& arguments) {
     // What a space writes beside is known when the model is.
     const bool known_of_space = check_tet_distances_path(path) || check_grid_distances_path(path);
     if (auto known = check_distance_path(path); !known && !known_of_space) return known;
-    const bool holds_cells = holds_mesh(path) || io::file_extension(path) == ".vtu";
-    if (!arguments.fields.empty() && !arguments.targets.empty() && !holds_cells) {
-      return Error{ErrorCode::kBadInput,
-                   "--fields are of all vertices, and --target asks for some",
-                   {"write a .ply or .vtp, or leave one of them out"}};
-    }
   }
   return {};
 }
@@ -221,6 +215,12 @@ Result<CheckSettings> settings_of(const SolveArguments& arguments, const MethodO
 
 namespace {
 
+Error refuse_fields_of_targets() {
+  return {ErrorCode::kBadInput,
+          "--fields are of all vertices, and --target asks for some",
+          {"write a .ply or .vtp, or leave one of them out"}};
+}
+
 /// The rows of the targets alone, as .npy or .csv.
 std::string target_bytes(const std::string& path, const std::vector<Index>& targets,
                          const std::vector<double>& distances, const std::vector<Index>& nearest) {
@@ -323,6 +323,7 @@ Result<CommandOutput> run_solve(const SolveArguments& arguments, const Drawing& 
       if (is_ply(path)) held.insert(held.end(), colours->begin(), colours->end());
       const std::vector<Index>& targets = figures->reach.targets;
       if (!targets.empty() && !holds_mesh(path)) {
+        if (!held.empty()) return refuse_fields_of_targets();
         std::string bytes = target_bytes(path, targets, distances, nearest);
         if (path != "-") return write_file(path, bytes);
         out.text = std::move(bytes);

@@ -105,10 +105,16 @@ std::vector<Warning> unreached_notes(const MeshSummary& mesh, Index unreached,
   return notes;
 }
 
-void note_unreached(std::int64_t vertices, const std::string& from,
-                    std::vector<Warning>& warnings) {
-  if (vertices <= 0) return;
-  warnings.push_back({counted(vertices, "vertex lies", "vertices lie") + " in components without " +
+void note_unreached(const TriangleMesh& mesh, std::span<const double> distances,
+                    const std::string& from, std::vector<Warning>& warnings) {
+  std::vector<char> lost(distances.size(), 0);
+  for (const Face& face : mesh.faces()) {
+    if (face[0] == face[1] || face[1] == face[2] || face[2] == face[0]) continue;
+    for (const Index v : face) lost[v] = std::isfinite(distances[v]) ? 0 : 1;
+  }
+  const auto count = std::ranges::count(lost, 1);
+  if (count == 0) return;
+  warnings.push_back({counted(count, "vertex lies", "vertices lie") + " in components without " +
                       from + "; the distance there is infinite"});
 }
 

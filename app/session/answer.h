@@ -67,8 +67,9 @@ std::vector<Warning> unreached_notes(const MeshSummary& mesh, Index unreached,
 /// it is about a setting; the model's name comes in front where it has one.
 Error about_model(const std::string& name, const Error& error);
 
-/// Says that so many vertices have no distance, where there are such. `from`: "a source".
-void note_unreached(std::int64_t vertices, const std::string& from, std::vector<Warning>& warnings);
+/// Says how many vertices of faces have no distance, where there are such. `from`: "a source".
+void note_unreached(const TriangleMesh& mesh, std::span<const double> distances,
+                    const std::string& from, std::vector<Warning>& warnings);
 
 /// One source with the vertices that it is nearest to: a geodesic Voronoi cell.
 struct Region {

@@ -25,7 +25,10 @@ std::string graded(const AccuracyReport& report) {
 
 AccuracyReport unchecked(MethodKind method, Check check, bool is_reference) {
   if (is_reference) {
-    return unmeasured(method, to_text(method) + " is the reference here, and nothing is better");
+    return unmeasured(method,
+                      to_text(method) + (method == MethodKind::kHeat
+                                             ? " is the only method here"
+                                             : " is the reference here, and nothing is better"));
   }
   if (method == MethodKind::kExact) {
     return unmeasured(method, "this is the most accurate method there is");

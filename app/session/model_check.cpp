@@ -111,14 +111,14 @@ MethodKind ModelSolver::reference_of_better(MethodKind kind, Check check) const 
 
 bool ModelSolver::is_better(MethodKind a, MethodKind b) const {
   if (!model_.space) return geotherm::is_better(a, b);
-  return a == model_.space->reference_method() &&
+  return a != b && a == model_.space->reference_method() &&
          (b == MethodKind::kHeat || geotherm::is_better(a, b));
 }
 
 std::vector<MethodKind> ModelSolver::better_methods(MethodKind poor, Check check) const {
   if (!model_.space) return app::better_methods(poor, check, model_.mesh->face_count());
-  if (poor != MethodKind::kHeat) return {};
-  return {model_.space->reference_method()};
+  const MethodKind best = model_.space->reference_method();
+  return is_better(best, poor) ? std::vector{best} : std::vector<MethodKind>();
 }
 
 Result<ReferenceAnswers> ModelSolver::reference(

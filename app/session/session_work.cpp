@@ -208,12 +208,7 @@ void Session::State::look_head_on() {
 void Session::State::say_failure(const Error& error, ExplorePart part) {
   failure = sentence(error);
   const std::string line = lines_to_blame(part);
-  if (!first_error) {
-    // What is wrong in a file is the file's fault, not the command line's.
-    const bool in_file = !line.empty() && error.code == ErrorCode::kBadInput;
-    first_error =
-        line.empty() ? error : about(line, error, in_file ? ErrorCode::kBadFile : error.code);
-  }
+  if (!first_error) first_error = line.empty() ? error : about_line(line, error);
   note(error);
 }
 

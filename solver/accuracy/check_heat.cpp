@@ -190,7 +190,8 @@ void add_lost_cells(const HeatOptions& options, double unit_t, const CellCounts&
            (dirichlet ? ": the boundary, held at 0, cuts them off"
                       : ", distances there follow their surroundings"),
        dirichlet ? other_boundary_rule()
-                 : time_hint(unit_t > 1 ? "lower " : "raise ", options.time_step.rule)});
+                 : time_hint(is_extreme_time(unit_t) && unit_t > 1 ? "lower " : "raise ",
+                             options.time_step.rule)});
 }
 
 void add_clamped_vertices(const HeatOptions& options, BelowLine below, DistanceResult& result) {

@@ -50,7 +50,7 @@ class Parts {
       const bool crossed = curves_.crossings[e] % 2 != 0;
       fits = fits && crossed == (sign(a) != sign(b));
     }
-    if (beside_.empty()) return Sides::kNone;
+    if (beside_.empty() && has_no_side_) return Sides::kNone;
     const auto on_both = [](const auto& each) { return each.second == (kLeft | kRight); };
     if (std::ranges::any_of(beside_, on_both)) return Sides::kNotSeparate;
     const auto is_torn = [](const Votes& v) { return v.left > 0 && v.right > 0; };
@@ -88,6 +88,7 @@ class Parts {
       for (int k = 0; k < 3; ++k) {
         if (on_curve(state_.paths.face(face)[k])) continue;
         const auto [side, curve] = side_of(at, at[k], {pieces.data() + begin, pieces.data() + end});
+        has_no_side_ = has_no_side_ || side == 0;
         if (side == 0) continue;
         const Index part = find_root(state_.paths.face(face)[k]);
         beside_[{part, curve}] |= side > 0 ? kLeft : kRight;
@@ -122,6 +123,7 @@ class Parts {
   const CurvePieces& curves_;
   std::vector<Index> root_;
   std::vector<Votes> votes_;
+  bool has_no_side_ = false;  ///< a corner beside a curve that is on neither of its sides
   std::map<std::pair<Index, std::size_t>, int> beside_;  ///< sides of a curve that a part is on
 };
 
@@ -195,9 +197,12 @@ Result<SignedDistance> signed_distance(const SignedSetup& setup,
       const auto* const setting = std::get_if<SettingHint>(&part);
       return setting != nullptr && setting->name == "rule";
     };
-    if (found || rule == SideRule::kSides || std::ranges::none_of(found.error().hint, is_heat)) {
+    if (found || rule == SideRule::kSides || found.error().code == ErrorCode::kCancelled) {
       return found;
     }
+    // Curves that say two things are no matter of the rule.
+    const bool wrong = found.error().code == ErrorCode::kBadInput;
+    if (wrong && std::ranges::none_of(found.error().hint, is_heat)) return found;
     no_sides = found.error();
   }
   const auto heat = setup.heat(part_of(progress, 0, 0.7));

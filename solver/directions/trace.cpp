@@ -175,7 +175,8 @@ class Tracer {
     const double all = fans_.vertex(v).angle;
     const bool at_begin = angle < kRound;
     if ((!at_begin && angle < all - kRound) || all < kHalfTurn - kRound) return false;
-    return go_from_vertex(v, std::clamp(at_begin ? kHalfTurn : all - kHalfTurn, 0.0, all));
+    if (all < kHalfTurn + kRound) return go_from_vertex(v, at_begin ? all : 0.0);
+    return go_from_vertex(v, at_begin ? kHalfTurn : all - kHalfTurn);
   }
 
   bool go_from_vertex(Index v, double angle) {

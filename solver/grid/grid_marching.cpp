@@ -50,7 +50,14 @@ class GridMarch {
       const GridPlace corner = place_of(cell.corners[k]);
       for (int e = 0; e < d_; ++e) at[e] += point.weights[k] * corner[e];
     }
+    for (int e = 0; e < d_; ++e) {  // weights are rounded
+      const double low = coordinate(point.cell, e);
+      at[e] = std::clamp(at[e], low, low + 1);
+    }
     sources_.push_back({at, 0, cell.slowness});
+    for (int k = 0; k < cell.count; ++k) {
+      start_at(cell.corners[k], line_from(sources_.back(), place_of(cell.corners[k])));
+    }
     start_around(point.cell);
     return {};
   }
@@ -132,8 +139,8 @@ class GridMarch {
     state_[v] |= kSees;
   }
 
-  /// Starts at the samples around the source that was added last, in the cell with this lowest
-  /// corner and in those beside it: see() would ask some of them for corners that are farther off.
+  /// Starts at the samples of the cells beside that of the source that was added last, which has
+  /// this lowest corner: see() would ask some of them for corners that are farther off.
   void start_around(Index lowest) {
     const Source& source = sources_.back();
     for (int k = 0; k < 1 << (2 * d_); ++k) {

@@ -259,6 +259,7 @@ Result<FoundPath> PathFinder::through(std::span<const SurfacePoint> points,
   auto loop = shorten(*surface_, out.path, false, part_of(progress, found, 1));
   if (!loop) return loop.error();
   out.path = *std::move(loop);
+  out.warnings.clear();  // they are of pieces that are gone
   if (out.path.points.size() == 1) {
     out.warnings.push_back(
         {"the loop can be drawn together to a point, and was",
@@ -367,7 +368,7 @@ Result<FoundPath> PathFinder::geodesic(const SurfacePoint& from, const SurfacePo
                               : kUnreached;
   if (found.path.length > distance * (1 + error_of(method_->kind()))) {
     const TriangleMesh& mesh = *surface_->mesh();
-    found.warnings.push_back({"from " + place_text(position_at(mesh, from)) + " to " +
+    found.warnings.push_back({"between " + place_text(position_at(mesh, from)) + " and " +
                               place_text(position_at(mesh, to)) +
                               " no path was found that is as short as the distance, " +
                               rounded_text(distance) + " by the method " +

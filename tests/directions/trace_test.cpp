@@ -112,6 +112,24 @@ TEST(Traced, LinesGoAlongABorderThatIsStraightAndEndAtItsCorners) {
   }
 }
 
+/// Angles at the border of a file of floats are half a turn but for their rounding.
+TEST(Traced, LinesGoAlongABorderOfFloats) {
+  Draft draft = plane_grid(8, 8, 1, 1);
+  const Eigen::AngleAxisd turn(0.3, Vec3(1, 2, 3).normalized());
+  for (Vec3& p : draft.positions) p = (turn * p).cast<float>().cast<double>();
+  const MeshPtr mesh = finish(draft);
+  const auto directions = directions_on(mesh);
+  constexpr double kFloats = 1e-6;
+  for (int i = 1; i < 8; ++i) {
+    const SurfacePoint from = SurfacePoint::at_vertex(grid_vertex(8, i, 0));
+    const auto frame = directions->frame_at(from);
+    ASSERT_TRUE(frame && frame->on_boundary);
+    const TracedLine one = traced(*directions, from, 0, 3);
+    const TracedLine other = traced(*directions, from, frame->angle, 3);
+    EXPECT_NEAR(one.path.length + other.path.length, 1, kFloats) << i;
+  }
+}
+
 TEST(Traced, LineWindsRoundACylinder) {
   constexpr Index kAround = 24, kAlong = 40;
   const Draft draft = prism(kAround, kAlong, 2);

@@ -163,6 +163,21 @@ TEST_P(GridDistances, AreThoseOfTheClosedForm) {
 INSTANTIATE_TEST_SUITE_P(Of, GridDistances, testing::ValuesIn(grid_cases()),
                          [](const auto& test) { return test.param.name; });
 
+/// Weights of cells round, also beyond the last sample.
+TEST(GridMarching, FromTheSidesOfTheGridAndBeyondReachesAllOfIt) {
+  const Grid grid{{32, 32, 32}, {1, 1, 1}, Vec3::Zero(), {}};
+  for (const Vec3& at : {Vec3(31, 0.1, 0.3), Vec3(40, 0.1, 0.3), Vec3(0.1, 31, 30.4),
+                         Vec3(7.5, 31, 0.7), Vec3(-3, 12.3, 0.9), Vec3(30.7, 31, 5.1)}) {
+    const auto source = closest_point(grid, at);
+    ASSERT_TRUE(source && source->sample == kNoIndex);
+    SourceSet sources;
+    sources.cell_points = {source->in_cell};
+    const Vec3 place = at.cwiseMax(0).cwiseMin(31);
+    const auto found = distances_in(grid, sources, MethodKind::kFastMarching);
+    EXPECT_LE(error_of(grid, found, line_from(place)).largest, 1e-12) << at.transpose();
+  }
+}
+
 TEST(GridHeat, ErrorsFallWithTheSpacingSlow) {
   double before = 1;
   for (const Index n : {33, 65, 129}) {

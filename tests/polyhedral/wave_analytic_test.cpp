@@ -61,8 +61,8 @@ const std::map<MethodKind, double> kRates = {{MethodKind::kWavefront, 1.5},
                                              {MethodKind::kWavefrontFine, 1.5},
                                              {MethodKind::kFastMarching, 0.3}};
 
-/// A strip of needles, a thousandth of a percent as wide as long at most: every wave grazes the
-/// long edges, and only rounding is lost.
+/// A strip of needles, down to 2e-5 as wide as long (below 1e-5 edges are lengthened): every wave
+/// grazes the long edges, and only rounding is lost.
 TEST(WavesOverNeedles, AreExactWhereTheWaveIsRound) {
   constexpr Index kColumns = 300;
   constexpr double kRoundOff = 1e-9;

@@ -229,6 +229,7 @@ std::vector<Separator> cuts_along(std::span<const Extent> extents, const GraphPa
 std::vector<Separator> plane_cuts(const GraphPart& part, int most, int threads) {
   const std::vector<Extent> extents = find_extents(part, kThin, threads);
   std::vector<Separator> cuts = cuts_along(extents, part, most, threads);
+  if (extents.size() == kLanes) return cuts;  // no direction was left out
   // Across needles the shortest cut is along the direction in which the part is thin.
   constexpr double kLarge = 4;  // times sqrt(n), which is what surfaces leave at most
   if (!cuts.empty() && cuts.front().count[kSeparator] <= kLarge * std::sqrt(part.size())) {
