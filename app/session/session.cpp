@@ -267,7 +267,7 @@ void Session::State::pump(const Session& session) {
     at_work = Place{name, line.number};
     const auto done = submit(line.command, session, Giver::kScript);
     if (!done && !first_error) first_error = done.error();
-    if (first_error) first_error = about_line(at_work->text(), *first_error);
+    if (first_error) first_error = about(at_work->text(), *first_error);
     at_work.reset();
   }
   if (script.empty()) scripts_run = 0;

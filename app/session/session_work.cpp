@@ -208,7 +208,7 @@ void Session::State::look_head_on() {
 void Session::State::say_failure(const Error& error, ExplorePart part) {
   failure = sentence(error);
   const std::string line = lines_to_blame(part);
-  if (!first_error) first_error = line.empty() ? error : about_line(line, error);
+  if (!first_error) first_error = line.empty() ? error : about(line, error);
   note(error);
 }
 

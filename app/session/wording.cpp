@@ -48,11 +48,6 @@ Error about(const std::string& where, Error error, ErrorCode code) {
   return about(where, error);
 }
 
-Error about_line(const std::string& line, const Error& error) {
-  const bool wrong = error.code == ErrorCode::kBadInput || error.code == ErrorCode::kNotAvailable;
-  return about(line, error, wrong ? ErrorCode::kBadFile : error.code);
-}
-
 bool is_about_setting(const Error& error) {
   const auto names_one = [](const auto& part) { return std::holds_alternative<SettingHint>(part); };
   return error.code == ErrorCode::kBadInput && std::ranges::any_of(error.hint, names_one);

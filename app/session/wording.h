@@ -28,8 +28,6 @@ Warning warning_of(Error error);
 /// The error with where it happened in front: "WHERE: WHAT".
 Error about(const std::string& where, const Error& error);
 Error about(const std::string& where, Error error, ErrorCode code);
-/// The same of a line of a script: what is wrong in it is kBadFile, no fault of the command line.
-Error about_line(const std::string& line, const Error& error);
 
 /// Whether another setting is what cures it: then the command line is wrong, and not the model.
 bool is_about_setting(const Error& error);

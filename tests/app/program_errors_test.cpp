@@ -296,7 +296,7 @@ const std::vector<Failure>& failures() {
        {"heat runs on a backend: name one of native"}},
       {"ScriptOfNoVertex",
        {"view", "triangle.obj", "--headless", "--script", "no_vertex.geotherm"},
-       1,
+       2,
        {"no_vertex.geotherm: line 1: ", "there is no vertex 99"}},
       {"CurveOfOnePlace",
        {"signed", "triangle.obj", "--through", "0", "--through", "0"},
