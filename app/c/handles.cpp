@@ -124,7 +124,8 @@ Watched::Watched(const geotherm_watch* watch) {
     if (interruptible_ && interrupts.load() != from) return false;
     return call == nullptr || call(data, std::string(stage).c_str(), share) == 0;
   };
-  interruptible_ = watch->interruptible != 0 && begin_counting();  // last: no destructor ends it
+  // The counting begins last: where a constructor throws, no destructor would end it.
+  interruptible_ = watch->interruptible != 0 && begin_counting();
 }
 
 Watched::~Watched() {

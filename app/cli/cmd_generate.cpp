@@ -27,35 +27,31 @@ constexpr int kMaxWaving = 10'000;
 
 double phase_of(int k, int frames) { return 2 * std::numbers::pi * k / frames; }
 
+/// `what`: "faces". Errors: kBadInput.
+Result<Index> count_between(const std::string& text, const std::string& option, Index least,
+                            Index most, const char* what) {
+  const auto count = count_in(text);
+  if (count && *count >= least && *count <= most) return static_cast<Index>(*count);
+  return Error{ErrorCode::kBadInput,
+               option + ": '" + one_line(text) + "' is no number of " + what,
+               {"give " + std::to_string(least) + " to " + std::to_string(most)}};
+}
+
 /// As asked for, else the model's usual number.
 Result<Index> faces_in(const GenerateArguments& arguments) {
-  if (arguments.faces.empty()) {
-    for (const BundledModel& model : bundled_models()) {
-      if (model.name == arguments.name) return model.faces;
-    }
-    return kMinModelFaces;  // the unknown name is the error to report
+  if (!arguments.faces.empty()) {
+    return count_between(arguments.faces, "--faces", kMinModelFaces, kMaxModelFaces, "faces");
   }
-  const auto faces = count_in(arguments.faces);
-  if (faces && *faces >= kMinModelFaces && *faces <= kMaxModelFaces) {
-    return static_cast<Index>(*faces);
+  for (const BundledModel& model : bundled_models()) {
+    if (model.name == arguments.name) return model.faces;
   }
-  return Error{
-      ErrorCode::kBadInput,
-      "--faces: '" + one_line(arguments.faces) + "' is no number of faces",
-      {"give " + std::to_string(kMinModelFaces) + " to " + std::to_string(kMaxModelFaces)}};
+  return kMinModelFaces;  // the unknown name is the error to report
 }
 
 Result<Index> tets_in(const GenerateArguments& arguments) {
   constexpr Index kUsual = 20'000;
   if (arguments.tets.empty()) return kUsual;
-  const auto tets = count_in(arguments.tets);
-  if (tets && *tets >= kMinVolumeTets && *tets <= kMaxVolumeTets) {
-    return static_cast<Index>(*tets);
-  }
-  return Error{
-      ErrorCode::kBadInput,
-      "--tets: '" + one_line(arguments.tets) + "' is no number of tetrahedra",
-      {"give " + std::to_string(kMinVolumeTets) + " to " + std::to_string(kMaxVolumeTets)}};
+  return count_between(arguments.tets, "--tets", kMinVolumeTets, kMaxVolumeTets, "tetrahedra");
 }
 
 Result<CommandOutput> generate_volume_file(const GenerateArguments& arguments) {

@@ -109,7 +109,7 @@ void note_unreached(const TriangleMesh& mesh, std::span<const double> distances,
                     const std::string& from, std::vector<Warning>& warnings) {
   std::vector<char> lost(distances.size(), 0);
   for (const Face& face : mesh.faces()) {
-    if (face[0] == face[1] || face[1] == face[2] || face[2] == face[0]) continue;
+    if (repeats_corner(face)) continue;
     for (const Index v : face) lost[v] = std::isfinite(distances[v]) ? 0 : 1;
   }
   const auto count = std::ranges::count(lost, 1);

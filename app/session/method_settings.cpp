@@ -275,7 +275,12 @@ std::vector<Setting> method_settings() {
                    "vertices",
            .detail = "Each time there are four times as many faces to solve on, and less error; "
                      "the distances shown are those at the model's own vertices.",
-           .values = [] { return Names{"0", "1", "2", "3", "4", "5", "6"}; }}),
+           .values =
+               [] {
+                 Names times;
+                 for (int n = 0; n <= kMaxRefine; ++n) times.push_back(std::to_string(n));
+                 return times;
+               }}),
       choice<&ModelReading::domain>(
           {.name = "domain",
            .group = kModel,

@@ -320,9 +320,7 @@ Result<std::vector<Source>> read_source_file(const std::string& path, bool curve
   }
   const auto file = io::FileBytes::read(path);
   if (!file) {
-    return with_hint(file.error(), {std::filesystem::exists(path, unknown)
-                                        ? "give a file with one vertex id or point a line"
-                                        : "check the path"});
+    return with_hint(file.error(), {"give a file with one vertex id or point a line"});
   }
   const std::string shown = one_line(path);
   std::string_view rest = file->bytes();

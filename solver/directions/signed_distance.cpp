@@ -24,7 +24,7 @@ using CurveLayout = std::array<Point2, 3>;
 class Parts {
  public:
   Parts(const Directions::State& state, const CurvePieces& curves)
-      : state_(state), curves_(curves), root_(curves.on_curve.size()), votes_(root_.size()) {
+      : state_(state), curves_(curves), root_(curves.on_curve.size()), sides_(root_.size()) {
     std::iota(root_.begin(), root_.end(), Index{0});
   }
 
@@ -53,21 +53,17 @@ class Parts {
     if (beside_.empty() && has_no_side_) return Sides::kNone;
     const auto on_both = [](const auto& each) { return each.second == (kLeft | kRight); };
     if (std::ranges::any_of(beside_, on_both)) return Sides::kNotSeparate;
-    const auto is_torn = [](const Votes& v) { return v.left > 0 && v.right > 0; };
-    if (std::ranges::any_of(votes_, is_torn)) return Sides::kContrary;
+    if (std::ranges::count(sides_, kLeft | kRight) > 0) return Sides::kContrary;
     return fits ? Sides::kFound : Sides::kNotSeparate;
   }
 
   /// -1 to the left of the curves, 1 to the right, 0 where they are not.
   int sign(Index v) {
-    const Votes& votes = votes_[find_root(v)];
-    return votes.left > 0 ? -1 : votes.right > 0 ? 1 : 0;
+    const int sides = sides_[find_root(v)];
+    return (sides & kLeft) != 0 ? -1 : (sides & kRight) != 0 ? 1 : 0;
   }
 
  private:
-  struct Votes {
-    int left = 0, right = 0;
-  };
   enum : int { kLeft = 1, kRight = 2 };
 
   bool on_curve(Index v) const { return curves_.on_curve[v] != 0; }
@@ -92,7 +88,7 @@ class Parts {
         if (side == 0) continue;
         const Index part = find_root(state_.paths.face(face)[k]);
         beside_[{part, curve}] |= side > 0 ? kLeft : kRight;
-        ++(side > 0 ? votes_[part].left : votes_[part].right);
+        sides_[part] |= side > 0 ? kLeft : kRight;
       }
     }
   }
@@ -122,7 +118,7 @@ class Parts {
   const Directions::State& state_;
   const CurvePieces& curves_;
   std::vector<Index> root_;
-  std::vector<Votes> votes_;
+  std::vector<int> sides_;    ///< of curves that a part is on, at its root
   bool has_no_side_ = false;  ///< a corner beside a curve that is on neither of its sides
   std::map<std::pair<Index, std::size_t>, int> beside_;  ///< sides of a curve that a part is on
 };
@@ -193,16 +189,16 @@ Result<SignedDistance> signed_distance(const SignedSetup& setup,
     const auto directions = setup.directions(part_of(progress, 0, 0.1));
     if (!directions) return directions.error();
     auto found = (*directions)->signed_distance(curves, part_of(progress, 0.1, 1));
-    const auto is_heat = [](const auto& part) {
-      const auto* const setting = std::get_if<SettingHint>(&part);
-      return setting != nullptr && setting->name == "rule";
-    };
     if (found || rule == SideRule::kSides || found.error().code == ErrorCode::kCancelled) {
       return found;
     }
-    // Curves that say two things are no matter of the rule.
-    const bool wrong = found.error().code == ErrorCode::kBadInput;
-    if (wrong && std::ranges::none_of(found.error().hint, is_heat)) return found;
+    // Where the hint does not offer the other rule, the curves are wrong by either.
+    const auto is_rule = [](const auto& part) {
+      const auto* const setting = std::get_if<SettingHint>(&part);
+      return setting != nullptr && setting->name == "rule";
+    };
+    const bool bad_input = found.error().code == ErrorCode::kBadInput;
+    if (bad_input && std::ranges::none_of(found.error().hint, is_rule)) return found;
     no_sides = found.error();
   }
   const auto heat = setup.heat(part_of(progress, 0, 0.7));

@@ -18,7 +18,7 @@ using Complex = std::complex<double>;
 /// A time is made four times as long so often at most: half a million times the width.
 constexpr int kMaxTimes = 20;
 /// The share of the largest heat down to which conjugate gradients give seven digits.
-constexpr double kMinIterations = 1e-6;
+constexpr double kMinHeat = 1e-6;
 
 }  // namespace
 
@@ -61,7 +61,7 @@ Result<Warmth> VectorHeat::State::warm(std::span<const Index> rows, bool for_vec
     least = std::min(least, std::abs(out.heat.u(i, 0)));
     most = std::max(most, std::abs(out.heat.u(i, 0)));
   }
-  out.scaled = iterative() && (!out.heat.level.empty() || !(least > kMinIterations * most));
+  out.scaled = iterative() && (!out.heat.level.empty() || !(least > kMinHeat * most));
   if (out.t != t) {
     warnings.push_back({"the mesh is so wide that the diffusion time is " +
                         rounded_text(out.t / t) + " times as long as asked for"});

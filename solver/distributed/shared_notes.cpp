@@ -106,8 +106,7 @@ std::vector<Warning> notes_of(const RankGroup& ranks, const MeshPart& part,
   if (lengthened > 0) {
     notes.push_back({"faces that are degenerate or nearly so had edges lengthened, by up to " +
                      rounded_text(lengthened) +
-                     "; distances across them may be too long by as "
-                     "much"});
+                     "; distances may be too long, by as much for each of them that is crossed"});
   }
   ranks.all_reduce(needs, RankGroup::Reduction::kSum);
   note_needs(needs[0], needs[1], notes);

@@ -146,6 +146,24 @@ bool is_same_slowness(double slowness, double other) {
   return std::abs(slowness - other) <= kRoundOff * other;
 }
 
+bool GridLattice::passes(const std::array<Index, 3>& cell_at, const GridPlace& way,
+                         double slowness) const {
+  for (int side = 0; side < 1 << dimension_; ++side) {
+    Index lowest = 0;
+    bool is_there = true;
+    for (int e = 0; e < dimension_; ++e) {
+      const bool before = (side >> e & 1) != 0;
+      const Index at = cell_at[e] - (before ? 1 : 0);
+      is_there = is_there && !(before && way[e] != 0) && at >= 0 && at + 1 < length_[e];
+      lowest += at * stride_[e];
+    }
+    if (is_there && has_cell(lowest) && is_same_slowness(cell(lowest).slowness, slowness)) {
+      return true;
+    }
+  }
+  return false;
+}
+
 bool GridLattice::is_in_sight(const GridPlace& sample, const GridPlace& place,
                               double slowness) const {
   GridPlace way{};
@@ -155,24 +173,14 @@ bool GridLattice::is_in_sight(const GridPlace& sample, const GridPlace& place,
     for (double i = 1; i < std::abs(way[e]); ++i) cuts.push_back(i / std::abs(way[e]));
   }
   std::sort(cuts.begin(), cuts.end());
-  const auto is_free = [&](double share, int side) {
-    Index lowest = 0;
-    for (int e = 0; e < dimension_; ++e) {
-      const bool before = (side >> e & 1) != 0;  // either side, where it runs inside a face
-      if (before && way[e] != 0) return false;
-      const auto at = static_cast<Index>(std::floor(sample[e] + share * way[e])) - (before ? 1 : 0);
-      if (at < 0 || at + 1 >= length_[e]) return false;
-      lowest += at * stride_[e];
-    }
-    return has_cell(lowest) && is_same_slowness(cell(lowest).slowness, slowness);
-  };
   for (std::size_t i = 0; i + 1 < cuts.size(); ++i) {
     if (cuts[i] == cuts[i + 1]) continue;
-    bool free = false;
-    for (int side = 0; side < 1 << dimension_; ++side) {
-      free = free || is_free((cuts[i] + cuts[i + 1]) / 2, side);
+    const double share = (cuts[i] + cuts[i + 1]) / 2;
+    std::array<Index, 3> at{};
+    for (int e = 0; e < dimension_; ++e) {
+      at[e] = static_cast<Index>(std::floor(sample[e] + share * way[e]));
     }
-    if (!free) return false;
+    if (!passes(at, way, slowness)) return false;
   }
   return true;
 }

@@ -245,15 +245,17 @@ class GridMarch {
     const double line = line_from(s, at);
     if (line > distance_[v] && nearest_[v] != source) return false;
     std::array<int, 3> steps{};
-    bool straight = true;  // along an edge
+    std::array<Index, 3> cell{};  // that the line runs through at v
+    bool straight = true;         // along an edge
     for (int e = 0; e < d_; ++e) {
       steps[e] = way[e] < 0 ? -1 : 1;
+      cell[e] = static_cast<Index>(at[e]) - (way[e] < 0 ? 1 : 0);
       straight = straight && (e == main || way[e] == 0);
     }
     const Index next = neighbor(v, main, steps[main]);
     if (straight) {
       if (next == kNoIndex || !is_same_slowness(1 / grid_.speed(v), s.slowness)) return false;
-    } else if (!is_free(v, steps, way, s.slowness)) {
+    } else if (!lattice_.passes(cell, way, s.slowness)) {
       return false;
     }
     for (int k = 0; k < 1 << d_; ++k) {  // the corners of the side that the line crosses
@@ -272,24 +274,6 @@ class GridMarch {
     set(v, line, source);  // also upwards: a slope may be too flat
     state_[v] |= kSees;
     return true;
-  }
-
-  /// Whether a cell is there on the line's way, of this slowness: on either side of the line where
-  /// it runs inside a face.
-  bool is_free(Index v, std::array<int, 3> steps, const GridPlace& way, double slowness) const {
-    for (int k = 0; k < 1 << d_; ++k) {
-      bool tried = true;
-      for (int e = 0; e < d_; ++e) tried = tried && ((k >> e & 1) == 0 || way[e] == 0);
-      if (!tried) continue;
-      std::array<int, 3> turned = steps;
-      for (int e = 0; e < d_; ++e) {
-        if ((k >> e & 1) != 0) turned[e] = -turned[e];
-      }
-      const Index lowest = cell_towards(v, turned);
-      if (lowest != kNoIndex && is_same_slowness(lattice_.cell(lowest).slowness, slowness))
-        return true;
-    }
-    return false;
   }
 
   const GridLattice& lattice_;

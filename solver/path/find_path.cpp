@@ -354,18 +354,17 @@ Result<FoundPath> PathFinder::geodesic(const SurfacePoint& from, const SurfacePo
   if (!there) return there.error();
   const auto back = distances(to, false, part_of(progress, 0.4, 0.8));
   if (!back) return back.error();
-  double known = -1;
-  if (method_->kind() == MethodKind::kExact && to.is_vertex()) {
-    known = (*there)->distances[static_cast<std::size_t>(to.vertex)] * (1 + kSameLength);
-  }
-  auto path = search_geodesic(*surface_, {from, to, (*there)->distances, (*back)->distances}, known,
-                              part_of(progress, 0.8, 1));
+  const auto at = [](const DistanceResult& distances, const SurfacePoint& point) {
+    return point.is_vertex() ? distances.distances[static_cast<std::size_t>(point.vertex)]
+                             : kUnreached;
+  };
+  const double distance = to.is_vertex() ? at(**there, to) : at(**back, from);
+  const bool is_exact = method_->kind() == MethodKind::kExact && to.is_vertex();
+  auto path =
+      search_geodesic(*surface_, {from, to, (*there)->distances, (*back)->distances},
+                      is_exact ? distance * (1 + kSameLength) : -1, part_of(progress, 0.8, 1));
   if (!path) return path.error();
   FoundPath found{*std::move(path), {}};
-  const double distance = to.is_vertex() ? (*there)->distances[static_cast<std::size_t>(to.vertex)]
-                          : from.is_vertex()
-                              ? (*back)->distances[static_cast<std::size_t>(from.vertex)]
-                              : kUnreached;
   if (found.path.length > distance * (1 + error_of(method_->kind()))) {
     const TriangleMesh& mesh = *surface_->mesh();
     found.warnings.push_back({"between " + place_text(position_at(mesh, from)) + " and " +

@@ -85,7 +85,7 @@ struct TracedLine {
 
 /// How the side of a curve is told.
 enum class SideRule {
-  kAuto,   ///< kSides where the curves separate the surface, else kHeat
+  kAuto,   ///< kSides, or kHeat where the curves leave the surface in one part
   kSides,  ///< exact distance, with the sign of the part of the surface that a vertex is in
   kHeat,   ///< the signed heat method (Feng, Crane 2024), which closes gaps
 };
@@ -131,8 +131,8 @@ class Directions {
 
   /// Signed distance to directed curves that separate the surface, each piece of which lies in one
   /// face (PathFinder finds such): exact on the faces, by windows. Errors: kBadInput (no curve, a
-  /// piece that is in no face, curves that leave the surface in one part or go round a part in both
-  /// directions), those of exact distances. Cost: an exact query.
+  /// piece that is in no face, curves that leave the surface in one part, go round a part in both
+  /// directions or there and back), those of exact distances. Cost: an exact query.
   Result<SignedDistance> signed_distance(std::span<const SurfacePath> curves,
                                          const Progress& progress = {}) const;
 
@@ -223,8 +223,8 @@ struct SignedSetup {
   std::function<Result<std::shared_ptr<const VectorHeat>>(const Progress&)> heat;
 };
 
-/// Signed distance by a rule: that of Directions, or of VectorHeat. With kAuto a warning says that
-/// curves do not separate the surface. Errors: those of both.
+/// Signed distance by a rule: that of Directions, or of VectorHeat. With kAuto a warning says why
+/// VectorHeat answers. Errors: those of both.
 Result<SignedDistance> signed_distance(const SignedSetup& setup,
                                        std::span<const SurfacePath> curves,
                                        SideRule rule = SideRule::kAuto,

@@ -51,22 +51,24 @@ std::string quoted(std::string_view text, const char* where) {
 
 namespace {
 
-/// Why a file does not open, and what to do about it.
+/// `shown`: the file's name, for messages.
+Error file_error(const std::string& shown, const std::string& cause, const std::string& hint) {
+  return {ErrorCode::kBadFile, shown + ": " + cause, {hint}};
+}
+
+/// Why a file does not open, by the system's number of the error.
 Error open_error(const std::string& shown, int code) {
-  const auto failure = [&shown](const std::string& cause, Hint hint) {
-    return Error{ErrorCode::kBadFile, shown + ": " + cause, std::move(hint)};
-  };
   switch (code) {
     case ENOENT:
     case ENOTDIR:
-      return failure("no such file", {"check the path"});
+      return file_error(shown, "no such file", "check the path");
     case EACCES:
     case EPERM:
-      return failure("no permission to read the file",
-                     {"check the rights to it and to the folders that it is in"});
+      return file_error(shown, "no permission to read the file",
+                        "check the rights to it and to the folders that it is in");
     default:
-      return failure("cannot be opened: " + std::generic_category().message(code),
-                     {"check the path"});
+      return file_error(shown, "cannot be opened: " + std::generic_category().message(code),
+                        "check the path");
   }
 }
 
@@ -119,25 +121,23 @@ InputFile::~InputFile() {
 
 Result<InputFile> InputFile::open_as_is(const std::string& path) {
   const std::string shown = printable(path);
-  const auto failure = [&shown](const std::string& cause, const std::string& hint) {
-    return Error{ErrorCode::kBadFile, shown + ": " + cause, {hint}};
-  };
   // O_NONBLOCK: opening a pipe must not wait for its writer.
   InputFile file(path, shown, ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
   struct stat status {};
   if (file.descriptor_ < 0 || ::fstat(file.descriptor_, &status) != 0) {
     return open_error(shown, errno);
   }
-  if (S_ISDIR(status.st_mode)) return failure("is a directory", "give a file in it");
+  if (S_ISDIR(status.st_mode)) return file_error(shown, "is a directory", "give a file in it");
   if (S_ISFIFO(status.st_mode) || S_ISSOCK(status.st_mode)) {
     wait_for_writer(file.descriptor_);
     if (auto held = file.hold_stream(); !held) return held.error();
     return file;
   }
   if (!S_ISREG(status.st_mode)) {
-    return failure("is neither a regular file nor a pipe", "check the path");
+    return file_error(shown, "is neither a regular file nor a pipe", "check the path");
   }
-  if (status.st_size == 0) return failure("the file is empty (0 bytes)", "write it again");
+  if (status.st_size == 0)
+    return file_error(shown, "the file is empty (0 bytes)", "write it again");
   file.before_ = version_in(status);
   return file;
 }
