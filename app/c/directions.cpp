@@ -55,6 +55,10 @@ Result<std::vector<SurfacePath>> curves_of(const geotherm_sources* sources, bool
                                            const HeldModel& model, const Progress& progress) {
   const auto sets = many_sets(sources, model);
   if (!sets) return sets.error();
+  if (sources->text != nullptr && *sources->text != '\0') {
+    return bad_argument("a signed distance takes the points of its curves, not sources as text",
+                        {"give the points of each curve in order"});
+  }
   if (sources->starts == nullptr) {
     return bad_argument("each of the curves has one point, and a curve needs two or more",
                         {"give all points of each"});

@@ -121,15 +121,20 @@ Result<std::vector<BatchTask>> batch_tasks(const std::vector<std::string>& model
   return tasks;
 }
 
+std::string text_at(const Json& object, const char* name) {
+  if (!object.is_object()) return {};
+  const auto found = object.find(name);
+  return found != object.end() && found->is_string() ? found->get<std::string>() : std::string();
+}
+
 bool is_done(const BatchTask& task) {
   std::error_code missing;
   if (!fs::is_regular_file(task.output, missing)) return false;
   std::ifstream file(task.report);
   const Json report = Json::parse(file, nullptr, false);
-  if (report.is_discarded() || !report.is_object() || !report.contains("program")) return false;
-  const Json& program = report["program"];
-  if (program.value("version", "") != GEOTHERM_VERSION ||
-      program.value("command", "") != shell_command("geotherm", task.command)) {
+  const Json program = report.is_object() ? report.value("program", Json()) : Json();
+  if (text_at(program, "version") != GEOTHERM_VERSION ||
+      text_at(program, "command") != shell_command("geotherm", task.command)) {
     return false;
   }
   const auto read = fs::last_write_time(task.model, missing);
@@ -165,9 +170,8 @@ std::map<std::string, Json> Manifest::lines() const {
   std::ifstream file(path_);
   for (std::string line; std::getline(file, line);) {
     Json each = Json::parse(line, nullptr, false);
-    if (each.is_discarded() || !each.is_object() || !each.contains("model")) continue;
-    const std::string model = each.value("model", "");
-    last[model] = std::move(each);
+    const std::string model = text_at(each, "model");
+    if (!model.empty()) last[model] = std::move(each);
   }
   return last;
 }

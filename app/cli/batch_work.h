@@ -34,6 +34,10 @@ bool is_done(const BatchTask& task);
 /// Removes what a process that was killed has left beside the files of the task.
 void remove_remains(const BatchTask& task);
 
+/// The text that a report or a line of the manifest has under a name; empty where it has none, as
+/// where a file is another program's.
+std::string text_at(const Json& object, const char* name);
+
 /// How a task ended.
 struct BatchEnd {
   bool done = false;

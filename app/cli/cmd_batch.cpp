@@ -107,7 +107,7 @@ class Batch {
     if (is_done(task)) {
       ++sums_.before;
       const auto line = known.find(task.model);
-      if (line != known.end() && line->second.value("status", "") == "done") return {};
+      if (line != known.end() && text_at(line->second, "status") == "done") return {};
       return manifest_.add(manifest_line(task, {true, {}, 0}, true));
     }
     remove_remains(task);

@@ -42,6 +42,9 @@ Result<void> refuse_other_pictures(const RenderArguments& arguments, const Asked
   if (!arguments.targets.empty()) {
     return refuse("--path", "which draws distances alone", {"leave one of them out"});
   }
+  if (!arguments.field.empty()) {
+    return refuse("--field", "which draws distances alone", {"leave one of them out"});
+  }
   if (view == View::kExactError) {
     return refuse("--view exact-error", "whose first frame alone is checked",
                   {"choose another view"});

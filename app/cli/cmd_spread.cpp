@@ -90,7 +90,7 @@ Result<std::vector<AtVertex>> given_in(const SpreadArguments& arguments, const s
       from = colon + 1;
       if (parts == 0) {
         const auto vertex = number_in<Index>(word);
-        fine = fine && vertex;
+        fine = fine && vertex && *vertex >= 0;
         given.vertex = vertex.value_or(kNoIndex);
       } else {
         const auto number = number_in<double>(word);

@@ -228,7 +228,6 @@ Result<void> check_field(const RenderArguments& arguments, View view, bool has_s
   if (has_sources) others.emplace_back("sources");
   if (!arguments.targets.empty()) others.emplace_back("--path");
   if (!arguments.more_models.empty()) others.emplace_back("a second model");
-  if (!arguments.sequence.frames.empty()) others.emplace_back("--sequence");
   if (!others.empty()) {
     return Error{ErrorCode::kBadInput,
                  "--field draws values that are there already, not those of " + joined(others),

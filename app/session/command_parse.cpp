@@ -350,7 +350,7 @@ std::vector<std::string> completions(std::string_view line) {
     if (before == "open") {
       for (const BundledModel& model : bundled_models()) all.emplace_back(model.name);
     }
-    if (before == "open" || before == "run" || before == "sequence") {
+    if (before == "open" || before == "run" || before == "sequence" || before == "field") {
       for (std::string& path : paths_that_begin(begun)) all.push_back(std::move(path));
     }
     if (before.starts_with("source set") || before.starts_with("source add")) {

@@ -186,9 +186,10 @@ Error WordReader::blame_last(Error why) const {
 Result<double> WordReader::number(double least, double most) {
   const auto value = number_in<double>(peek());
   if (!value || !(*value >= least && *value <= most)) {
-    const bool any = most == kLargestNumber;
-    return fail(any ? "a number"
-                    : "a number from " + number_text(least) + " to " + number_text(most));
+    const bool any = least == -kLargestNumber;
+    return fail(most != kLargestNumber
+                    ? "a number from " + number_text(least) + " to " + number_text(most)
+                    : (any ? "a number" : "a number above 0"));
   }
   ++next_;
   return *value;

@@ -77,7 +77,12 @@ class Resolver {
   }
 
   Result<void> operator()(const WholeBoundary&) {
-    if (space_.space != nullptr) return (*this)(VertexList{space_.space->boundary_vertices()});
+    if (space_.space != nullptr) {
+      VertexList border{space_.space->boundary_vertices()};
+      if (!border.vertices.empty()) return (*this)(border);
+      return misplaced("the " + std::string(space_.space->words().body) + " has no boundary",
+                       "choose vertices instead");
+    }
     const EdgeTable& edges = clean().edges;
     bool found = false;
     for (Index e = 0; e < edges.edge_count(); ++e) {
@@ -223,7 +228,7 @@ class Resolver {
   }
 
   Result<void> add_vertex(Index v, double offset) {
-    if (v >= mesh_.vertex_count()) {
+    if (v < 0 || v >= mesh_.vertex_count()) {
       return out_of_range("vertex", "vertices", v, mesh_.vertex_count());
     }
     v = mesh_.standing_for(v);

@@ -50,6 +50,11 @@ void look_beside(const fs::path& folder, Command& command) {
   if (auto* const open = std::get_if<command::Open>(&command)) file = &open->model;
   if (auto* const frames = std::get_if<command::ShowSequence>(&command)) file = &frames->path;
   if (auto* const run = std::get_if<command::Run>(&command)) file = &run->path;
+  if (auto* const field = std::get_if<command::ShowField>(&command)) file = &field->path;
+  if (auto* const set = std::get_if<command::Set>(&command);
+      set != nullptr && set->name == "mask") {
+    file = &set->value;
+  }
   std::error_code unknown;
   if (file == nullptr || folder.empty() || fs::exists(*file, unknown)) return;
   const fs::path beside = folder / *file;

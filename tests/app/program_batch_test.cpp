@@ -119,6 +119,13 @@ TEST_F(BatchProgram, WhatIsDoneIsDoneOnceUntilModelOrOptionsChange) {
   others[3] = "1";
   EXPECT_EQ(done(others), 2);
   EXPECT_EQ(manifest().size(), 2U);
+  // A report and a line of another program are not of this one.
+  folder.write("out/a.json", R"({"program": "other", "version": 3})");
+  std::ofstream(folder.path("out/manifest.jsonl"), std::ios::app)
+      << R"({"model": 7, "status": 1})"
+      << "\n[]\n"
+      << R"({"model": "shapes/b.obj", "status": 1})" << '\n';
+  EXPECT_EQ(done(others), 1);
 }
 
 TEST_F(BatchProgram, ThatIsKilledLeavesWholeFilesAndGoesOnFromThere) {

@@ -348,6 +348,7 @@ TEST_F(Program, DirectionsThatCannotBeAreOneLine) {
   expect_refused({"transport", "square.obj", "--vector", "4:1"}, "VERTEX:X:Y");
   expect_refused({"transport", "square.obj", "--vector", "4:1:x"}, "VERTEX:X:Y");
   expect_refused({"transport", "square.obj", "--vector", "77:1:0"}, "77");
+  expect_refused({"transport", "square.obj", "--vector=-1:1:0"}, "VERTEX:X:Y");
   expect_refused({"transport", "strip.obj", "--vector", "0:1:0"}, "no oriented manifold");
   expect_refused({"signed", "strip.obj", "--through", "2", "--through", "3"},
                  "do not separate the surface into what is left and right of them, and the signed "

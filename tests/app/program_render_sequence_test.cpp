@@ -113,6 +113,7 @@ TEST_F(RenderSequence, RefusesWhatDoesNotGoWithIt) {
       {{"-o", "p%d.jpg"}, "give -o 'frame_%04d.png'"},
       {{"-o", "p%d.png", "--turntable", "4"}, "--turntable does not go with --sequence"},
       {{"-o", "p%d.png", "--path", "2"}, "--path does not go with --sequence"},
+      {{"-o", "p%d.png", "--field", "body.obj"}, "--field does not go with --sequence"},
       {{"-o", "p%d.png", "--view", "exact-error"}, "--view exact-error does not go"},
       {{"-o", "p%d.png", "--view", "regions"}, "add --method wavefront"}};
   for (const auto& [words, what] : wrong) {

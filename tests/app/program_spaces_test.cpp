@@ -75,6 +75,17 @@ TEST_F(ProgramOnSpaces, APlaceOfASourceThatIsNoVertexOfPolygonsSaysWhichStandsFo
       << middle.err;
 }
 
+TEST_F(ProgramOnSpaces, ClosedPolygonsHaveNoBoundary) {
+  folder.write("cube.obj",
+               "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\nv 1 0 1\nv 1 1 1\nv 0 1 1\n"
+               "f 4 3 2 1\nf 5 6 7 8\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n");
+  const ProgramRun none = run_program(
+      folder.path("."), {"solve", "cube.obj", "--domain", "polygons", "-s", "boundary"});
+  EXPECT_EQ(none.code, 2);
+  EXPECT_NE(none.err.find("has no boundary; choose vertices instead"), std::string::npos)
+      << none.err;
+}
+
 TEST_F(ProgramOnSpaces, InfoOfPointsSaysNothingOfTheSidesOfFaces) {
   std::string points;
   Dice dice(4);

@@ -226,6 +226,8 @@ INSTANTIATE_TEST_SUITE_P(
         BadCase{"TooFew", "camera orbit 10", "column 16: ", "AZIMUTH ELEVATION"},
         BadCase{"TooMany", "camera frame now", "column 14: ", "nothing after camera frame"},
         BadCase{"ZoomOfZero", "camera zoom 0", "column 13: ", "a number from"},
+        BadCase{"RadiusBelowZero", "sculpt pull -1 0.5 face:0:0:0:1",
+                "column 13: ", "a number above 0"},
         BadCase{"HalfAPlace", "camera zoom 2 0.5", "column 15: ", "both RIGHT and UP"},
         BadCase{"SteepPlace", "camera place 0 91 1 0 0", "column 16: ", "-90 to 90"},
         BadCase{"OpenNothing", "open", "column 5: ", "open MODEL"},

@@ -56,6 +56,8 @@ def test_signed_distances_are_distances_with_sides(bunny):
     assert np.all(np.isfinite(heat))
     with pytest.raises(geotherm.InputError, match="each of the curves has one point"):
         geotherm.signed_distance(bunny, corners)
+    with pytest.raises(geotherm.InputError, match="not sources as text"):
+        geotherm.signed_distance(bunny, [corners, "curve:17,900,1500"])
     with pytest.raises(geotherm.InputError, match="do not separate"):
         geotherm.signed_distance(bunny, [[17, 900]], closed=False, rule="sides")
 
