@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
+#include <utility>
 
 #include "solver/core/parallel.h"
 #include "solver/geometry/clean_faces.h"
@@ -12,40 +14,38 @@ namespace {
 
 using Lengths = std::array<double, 3>;
 
-/// By how much each triangle inequality must be strict, relative to the longest side of the face:
-/// faces of any size keep their shape unless that is degenerate.
-constexpr double kStrict = 1e-5;
 /// What is lengthened gets a tenth more, so that corrections which call for each other come to an
 /// end.
-constexpr double kAim = 1.1 * kStrict;
+constexpr double kAim = 1.1;
 /// Faces below this size, in mean edges, are points: their areas would leave the doubles' range.
 constexpr double kPointLength = 1e-70;
 /// Rounds at most: ordinary files take three.
-constexpr int kMaxFlipRounds = 100;
+constexpr int kMaxRounds = 100;
 
 /// The length by which the triangle inequality over side k fails to be strict; at most 0 where it
-/// is strict enough.
+/// is strict enough. Points become faces that are well shaped and small.
 double missing(const Lengths& l, int k, double strict) {
   const double longest = std::max({l[0], l[1], l[2]});
-  const double size = longest > kPointLength ? longest : 1.0;
-  return strict * size + l[k] - l[next_corner(k)] - l[previous_corner(k)];
+  const double least = longest > kPointLength ? strict * longest : kStrict;
+  return least + l[k] - l[next_corner(k)] - l[previous_corner(k)];
 }
 
 /// The smallest length that makes a face strict when added to all three sides.
-double addition(const Lengths& l) {
+double addition(const Lengths& l, double strict) {
   const double most =
-      std::max({missing(l, 0, kStrict), missing(l, 1, kStrict), missing(l, 2, kStrict)});
-  return std::max(0.0, most / (1 - kStrict));  // the longest side grows as well
+      std::max({missing(l, 0, strict), missing(l, 1, strict), missing(l, 2, strict)});
+  return std::max(0.0, most / (1 - strict));  // the longest side grows as well
 }
 
-std::vector<Index> faces_that_fail(const std::vector<Lengths>& lengths, int threads) {
+std::vector<Index> faces_that_fail(const std::vector<Lengths>& lengths, double strict,
+                                   int threads) {
   constexpr std::int64_t kGrain = 1 << 15;  // minimum faces per thread
   const auto count = static_cast<std::int64_t>(lengths.size());
   const int pieces = piece_count(threads, count, kGrain);
   std::vector<std::vector<Index>> found(static_cast<std::size_t>(pieces));
   for_pieces(pieces, count, [&](int piece, std::int64_t begin, std::int64_t end) {
     for (std::int64_t f = begin; f < end; ++f) {
-      if (addition(lengths[static_cast<std::size_t>(f)]) > 0) {
+      if (addition(lengths[static_cast<std::size_t>(f)], strict) > 0) {
         found[static_cast<std::size_t>(piece)].push_back(static_cast<Index>(f));
       }
     }
@@ -60,30 +60,35 @@ std::vector<Index> faces_that_fail(const std::vector<Lengths>& lengths, int thre
 /// Lengthens the edges of failing faces, then those of neighbours that fail because of it.
 class LocalRepair {
  public:
-  LocalRepair(std::vector<Lengths>& lengths, const EdgeTable& edges)
+  /// `first`: first_sides() of the mesh.
+  LocalRepair(std::vector<Lengths>& lengths, const std::vector<Side>& first, double strict)
       : lengths_(lengths),
-        edges_(edges),
-        edge_of_(3 * lengths.size()),
-        wanted_(static_cast<std::size_t>(edges.edge_count()), 0.0) {
-    for (Index e = 0; e < edges.edge_count(); ++e) {
-      for (const Side side : edges.sides(e)) edge_of_[side] = e;
+        first_(first),
+        strict_(strict),
+        next_(first.size()),
+        wanted_(first.size(), 0.0) {
+    std::iota(next_.begin(), next_.end(), 0);
+    for (Side side = 0; side < static_cast<Side>(first.size()); ++side) {
+      if (first[side] != side) next_[side] = std::exchange(next_[first[side]], side);
     }
   }
 
   /// In rounds, each of which sees the lengths that the one before has left: the order of faces
   /// does not matter. False where the work does not end.
   bool run(std::vector<Index> active) {
-    for (int round = 0; round < kMaxFlipRounds; ++round) {
-      std::vector<Index> called;
+    for (int round = 0; round < kMaxRounds; ++round) {
+      std::vector<Side> called;
       for (const Index f : active) ask_for(f, called);
       if (called.empty()) return true;
       active.clear();
-      for (const Index e : called) {
-        for (const Side side : edges_.sides(e)) {
-          lengths_[face_of(side)][corner_of(side)] += wanted_[e];
+      for (const Side first : called) {
+        Side side = first;
+        do {
+          lengths_[face_of(side)][corner_of(side)] += wanted_[first];
           active.push_back(face_of(side));
-        }
-        wanted_[e] = 0;
+          side = next_[side];
+        } while (side != first);
+        wanted_[first] = 0;
       }
       std::ranges::sort(active);
       active.erase(std::unique(active.begin(), active.end()), active.end());
@@ -92,39 +97,42 @@ class LocalRepair {
   }
 
  private:
-  /// Computes the lengths that a failing face needs, and adds its edges to `called`.
-  void ask_for(Index f, std::vector<Index>& called) {
-    if (!(addition(lengths_[f]) > 0)) return;
+  /// Computes the lengths that a failing face needs, and adds the first sides of its edges to
+  /// `called`.
+  void ask_for(Index f, std::vector<Side>& called) {
+    if (!(addition(lengths_[f], strict_) > 0)) return;
     for (int k = 0; k < 3; ++k) {
-      const double lack = missing(lengths_[f], k, kAim);
+      const double lack = missing(lengths_[f], k, kAim * strict_);
       if (!(lack > 0)) continue;
       // The shorter of the two takes the more: a needle keeps its long sides as they are.
       const int i = next_corner(k), j = previous_corner(k);
       const double a = lengths_[f][i], b = lengths_[f][j];
       const double share = a + b > 0 ? b / (a + b) : 0.5;
-      want(edge_of_[3 * f + i], share * lack, called);
-      want(edge_of_[3 * f + j], (1 - share) * lack, called);
+      want(first_[3 * f + i], share * lack, called);
+      want(first_[3 * f + j], (1 - share) * lack, called);
     }
   }
 
   /// An edge gets the largest length that any of its faces needs.
-  void want(Index edge, double by, std::vector<Index>& called) {
+  void want(Side first, double by, std::vector<Side>& called) {
     if (!(by > 0)) return;
-    if (wanted_[edge] == 0) called.push_back(edge);
-    wanted_[edge] = std::max(wanted_[edge], by);
+    if (wanted_[first] == 0) called.push_back(first);
+    wanted_[first] = std::max(wanted_[first], by);
   }
 
   std::vector<Lengths>& lengths_;
-  const EdgeTable& edges_;
-  std::vector<Index> edge_of_;
-  std::vector<double> wanted_;  // of each edge in this round
+  const std::vector<Side>& first_;
+  double strict_;
+  std::vector<Side> next_;      // of each side that of the same edge, the first after the last
+  std::vector<double> wanted_;  // of each edge in this round, at its first side
 };
 
-void add_to_components(std::vector<Lengths>& lengths, const FaceComponents& components) {
+void add_to_components(std::vector<Lengths>& lengths, const FaceComponents& components,
+                       double strict) {
   std::vector<double> needed(static_cast<std::size_t>(components.count), 0.0);
   for (std::size_t f = 0; f < lengths.size(); ++f) {
     double& most = needed[components.of[f]];
-    most = std::max(most, addition(lengths[f]));
+    most = std::max(most, addition(lengths[f], strict));
   }
   for (std::size_t f = 0; f < lengths.size(); ++f) {
     for (double& length : lengths[f]) length += needed[components.of[f]];
@@ -152,26 +160,48 @@ double four_areas(double a, double b, double c) {
 
 }  // namespace
 
-Mollification mollify(std::vector<Lengths>& lengths, const CleanFaces& clean, int threads) {
+std::vector<Side> first_sides(const IntrinsicMesh& mesh) {
+  std::vector<Side> first(mesh.twin.size()), alone;
+  for (Side side = 0; side < static_cast<Side>(mesh.twin.size()); ++side) {
+    const Side twin = mesh.twin[side];
+    first[side] = twin == kNoSide ? side : std::min(side, twin);
+    if (twin == kNoSide) alone.push_back(side);
+  }
+  const auto ends = [&mesh](Side side) {
+    const Face& face = mesh.faces[face_of(side)];
+    return std::minmax({face[corner_of(side)], face[next_corner(corner_of(side))]});
+  };
+  std::ranges::sort(alone, [&](Side a, Side b) {
+    const auto pair_a = ends(a), pair_b = ends(b);
+    return pair_a != pair_b ? pair_a < pair_b : a < b;
+  });
+  for (std::size_t i = 1; i < alone.size(); ++i) {
+    if (ends(alone[i]) == ends(alone[i - 1])) first[alone[i]] = first[alone[i - 1]];
+  }
+  return first;
+}
+
+Mollification mollify(IntrinsicMesh& mesh, double strict, int threads) {
   Mollification out;
-  const std::vector<Index> failing = faces_that_fail(lengths, threads);
+  std::vector<Lengths>& lengths = mesh.lengths;
+  const std::vector<Index> failing = faces_that_fail(lengths, strict, threads);
   if (failing.empty()) return out;
   Index vertices = 0;
-  for (const Face& face : clean.faces) {
+  for (const Face& face : mesh.faces) {
     vertices = std::max({vertices, face[0] + 1, face[1] + 1, face[2] + 1});
   }
   const std::vector<Lengths> before = lengths;
-  const FaceComponents components = face_components(clean.faces, vertices);
-  if (!LocalRepair(lengths, clean.edges).run(failing)) {
+  const FaceComponents components = face_components(mesh.faces, vertices);
+  const std::vector<Side> first = first_sides(mesh);
+  if (!LocalRepair(lengths, first, strict).run(failing)) {
     lengths = before;
-    add_to_components(lengths, components);
+    add_to_components(lengths, components, strict);
   }
   std::vector<char> touched(static_cast<std::size_t>(components.count), 0);
-  for (Index e = 0; e < clean.edges.edge_count(); ++e) {
-    const Side side = clean.edges.sides(e).front();
+  for (Side side = 0; side < static_cast<Side>(first.size()); ++side) {
     const double added =
         lengths[face_of(side)][corner_of(side)] - before[face_of(side)][corner_of(side)];
-    if (!(added > 0)) continue;
+    if (first[side] != side || !(added > 0)) continue;
     ++out.edges;
     out.most = std::max(out.most, added);
     touched[components.of[face_of(side)]] = 1;
@@ -194,7 +224,7 @@ double mean_edge_length(std::span<const Vec3> positions, const EdgeTable& edges,
 }
 
 IntrinsicMesh build_intrinsic_mesh(std::span<const Vec3> positions, const CleanFaces& clean,
-                                   double unit, int threads) {
+                                   double unit, int threads, double strict) {
   IntrinsicMesh mesh;
   mesh.unit = unit;
   mesh.faces = clean.faces;
@@ -215,7 +245,8 @@ IntrinsicMesh build_intrinsic_mesh(std::span<const Vec3> positions, const CleanF
           }
         }
       });
-  mesh.mollified = mollify(mesh.lengths, clean, threads);
+  const Mollification added = mollify(mesh, strict, threads);
+  if (strict > kBarelyStrict) mesh.mollified = added;
   return mesh;
 }
 

@@ -36,6 +36,17 @@ void note_mollification(const IntrinsicMesh& intrinsic, std::vector<Warning>& wa
   }
 }
 
+/// Flips what is not Delaunay, and notes it.
+Result<void> flip_where_needed(IntrinsicSurface& surface, int threads, const Progress& progress) {
+  std::vector<Side> sides = non_delaunay_sides(surface.intrinsic, threads);
+  if (sides.empty()) return {};
+  surface.delaunay = true;
+  auto flips = flip_to_delaunay(surface.intrinsic, std::move(sides), progress);
+  if (!flips) return flips.error();
+  surface.edits.insert(surface.edits.end(), flips->begin(), flips->end());
+  return {};
+}
+
 void note_refinement(const RefinementCounts& refinement, std::vector<Warning>& warnings) {
   if (refinement.complete) return;
   warnings.push_back(
@@ -207,10 +218,9 @@ Result<IntrinsicSurface> build_intrinsic_surface(std::shared_ptr<const TriangleM
     return valid.error();
   }
   if (!report(progress, "operators", 0.5)) return cancelled_error();
-  out.intrinsic =
-      build_intrinsic_mesh(positions, clean, unit_for(out.mean_edge, rules, earlier), threads);
-  out.warnings = cleaning_notes(clean);
-  note_mollification(out.intrinsic, out.warnings);
+  const bool flips = rules.flip != FlipRule::kNever;
+  out.intrinsic = build_intrinsic_mesh(positions, clean, unit_for(out.mean_edge, rules, earlier),
+                                       threads, flips ? kBarelyStrict : rules.strict);
   const Index vertices = out.mesh->vertex_count();
   const std::vector<char> doubled = faces_to_double(clean, vertices, rules.cover);
   out.tufted = !doubled.empty();
@@ -218,14 +228,23 @@ Result<IntrinsicSurface> build_intrinsic_surface(std::shared_ptr<const TriangleM
 
   if (!report(progress, "operators", 0.75)) return cancelled_error();
   out.times.intrinsic = watch.lap();
-  std::vector<Side> sides;
-  if (rules.flip != FlipRule::kNever) sides = non_delaunay_sides(out.intrinsic, threads);
-  out.delaunay = rules.flip == FlipRule::kAlways || !sides.empty();
-  if (!sides.empty()) {
-    auto flips = flip_to_delaunay(out.intrinsic, std::move(sides), part_of(progress, 0.75, 1.0));
-    if (!flips) return flips.error();
-    out.edits = std::move(*flips);
+  out.delaunay = rules.flip == FlipRule::kAlways;
+  if (flips) {
+    if (auto flipped = flip_where_needed(out, threads, part_of(progress, 0.75, 1.0)); !flipped) {
+      return flipped.error();
+    }
   }
+  if (flips && rules.strict > kBarelyStrict) {
+    // Flips have removed flat triangles but for some along the boundary, and left needles.
+    out.intrinsic.mollified = mollify(out.intrinsic, rules.strict, threads);
+    if (out.intrinsic.mollified.faces > 0) {
+      if (auto again = flip_where_needed(out, threads, part_of(progress, 0.75, 1.0)); !again) {
+        return again.error();
+      }
+    }
+  }
+  out.warnings = cleaning_notes(clean);
+  note_mollification(out.intrinsic, out.warnings);
   if (names_parts) {
     out.parts = clean.parts;
     measure_parts(out);

@@ -230,9 +230,7 @@ PolygonFans build_fans(const CellComplex& given, double unit, int threads) {
   builder.join_within_faces();
   builder.join_faces();
   if (std::ranges::any_of(out.mesh.lengths, is_flat_triangle)) {
-    (void)mollify(out.mesh.lengths,
-                  as_clean_faces(given.vertices + out.face_count(), out.mesh.faces, threads),
-                  threads);
+    (void)mollify(out.mesh, kBarelyStrict, threads);
   }
   return out;
 }

@@ -79,6 +79,12 @@ class PolygonFlipper {
     auto flips = flip_bad_regions(mesh_, given_.vertices, std::move(sides), progress);
     if (!flips) return flips.error();
     edits_ = std::move(*flips);
+    if (mollify(mesh_, kStrict, threads_).faces > 0) {
+      flips =
+          flip_bad_regions(mesh_, given_.vertices, non_delaunay_sides(mesh_, threads_), progress);
+      if (!flips) return flips.error();
+      edits_.insert(edits_.end(), flips->begin(), flips->end());
+    }
     out.parts = fans_.parts;
     measure_widths(out);
     Components parts = fans_.parts;

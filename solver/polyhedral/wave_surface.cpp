@@ -19,44 +19,8 @@ namespace {
 /// What the set-up takes at least for each face.
 constexpr double kSurfaceNanosecondsPerFace = 400;
 
-/// Sides without a twin, those of one edge together: the boundary, edges with three faces and more,
-/// and edges whose two faces disagree in orientation. Flips leave their vertices alone.
-std::vector<Side> twinless_sides(const IntrinsicMesh& mesh) {
-  const auto ends = [&mesh](Side side) {
-    const Face& face = mesh.faces[face_of(side)];
-    return std::minmax({face[corner_of(side)], face[next_corner(corner_of(side))]});
-  };
-  std::vector<Side> sides;
-  for (Side side = 0; side < static_cast<Side>(mesh.twin.size()); ++side) {
-    if (mesh.twin[side] == kNoSide) sides.push_back(side);
-  }
-  std::ranges::sort(sides, [&](Side a, Side b) {
-    const auto pair_a = ends(a), pair_b = ends(b);
-    return pair_a != pair_b ? pair_a < pair_b : a < b;
-  });
-  return sides;
-}
-
-/// Makes of_side the number of the first side of each side's edge.
-void name_edges_by_first_side(const IntrinsicMesh& mesh, WaveEdges& edges) {
-  auto& edge = edges.of_side;
-  edge.resize(mesh.twin.size());
-  for (Side side = 0; side < static_cast<Side>(mesh.twin.size()); ++side) {
-    edge[side] = mesh.twin[side] == kNoSide ? side : std::min(side, mesh.twin[side]);
-  }
-  const std::vector<Side> alone = twinless_sides(mesh);
-  for (std::size_t i = 1; i < alone.size(); ++i) {
-    const Face& before = mesh.faces[face_of(alone[i - 1])];
-    const Face& face = mesh.faces[face_of(alone[i])];
-    const int k = corner_of(alone[i]), j = corner_of(alone[i - 1]);
-    if (std::minmax(face[k], face[next_corner(k)]) ==
-        std::minmax(before[j], before[next_corner(j)])) {
-      edge[alone[i]] = edge[alone[i - 1]];
-    }
-  }
-}
-
-/// Numbers the edges from 0 in the order of their first sides, and lists their sides.
+/// Numbers the edges, which of_side names by their first sides, from 0 in the order of these, and
+/// lists their sides.
 void list_sides(WaveEdges& edges) {
   auto& edge = edges.of_side;
   std::vector<std::size_t> count;
@@ -228,7 +192,7 @@ class Seeder {
 
 const WaveEdges& WaveSurface::edges() const {
   std::call_once(listed_, [this] {
-    name_edges_by_first_side(base.intrinsic, edges_);
+    edges_.of_side = first_sides(base.intrinsic);
     list_sides(edges_);
   });
   return edges_;
@@ -248,9 +212,9 @@ Result<std::shared_ptr<const WaveSurface>> build_wave_surface(
   threads = threads_worth_starting(threads, kSurfaceNanosecondsPerFace * faces);
   try {
     const ThreadCrew crew(threads);
-    auto base = build_intrinsic_surface(std::move(mesh), {.flip = FlipRule::kAlways},
-                                        part_of(progress, 0.0, 0.9), threads,
-                                        earlier != nullptr ? &earlier->base : nullptr);
+    auto base = build_intrinsic_surface(
+        std::move(mesh), {.flip = FlipRule::kAlways, .strict = kBarelyStrict},
+        part_of(progress, 0.0, 0.9), threads, earlier != nullptr ? &earlier->base : nullptr);
     if (!base) return base.error();
     auto triangulation = std::make_shared<IntrinsicSurface>(*std::move(base));
     triangulation->corners = {};
