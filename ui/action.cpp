@@ -209,6 +209,12 @@ void show_figures(Frame& frame, const char* section) {
 void perform(Frame& frame, Action action) {
   if (!is_possible(frame, action)) return;
   if (action == Action::kCompare) show_figures(frame, kCompareSection);
+  const app::Timeline& timeline = frame.state().timeline;
+  // From the last frame on, where none follows, there would be nothing to play.
+  if (action == Action::kPlay && !timeline.playing && !timeline.loop &&
+      timeline.frame + 1 >= frame.model()->frames) {
+    frame.send(app::command::ShowFrame{0});
+  }
   if (auto command = command_of(frame, action)) {
     frame.send(*std::move(command));
     // B has become A, which can be changed: it stays in sight.

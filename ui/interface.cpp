@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "app/session/script.h"
+#include "app/text/text.h"
 #include "ui/action.h"
 #include "ui/canvas.h"
 #include "ui/dialogs.h"
@@ -132,6 +133,7 @@ Interface::Interface(Layout layout, std::span<const std::byte> font, float scale
   ImGuiIO& io = ImGui::GetIO();
   io.IniFilename = nullptr;  // what is remembered is the layout
   io.LogFilename = nullptr;
+  io.BackendFlags |= ImGuiBackendFlags_RendererHasVtxOffset;  // lists of more than 65,536 vertices
   io.ConfigWindowsMoveFromTitleBarOnly = true;
   io.ConfigInputTextCursorBlink = false;  // a window that nobody touches draws nothing
   for (const KeyPlace& place : kEditing) {

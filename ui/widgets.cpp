@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "app/text/text.h"
 #include "ui/frame.h"
@@ -246,20 +247,24 @@ std::optional<std::string> draw_field(Frame& frame, std::string_view key,
                                       const std::string& current, const char* hint) {
   const std::string name = id_of(frame, key);
   const ImGuiID id = ImGui::GetID(name.c_str());
-  TextEdit& edit = frame.ui.edit;
-  const bool was_edited = edit.id == id;
-  std::string text = was_edited ? edit.text : current;
+  UiState& ui = frame.ui;
+  // What was typed into a field that was hidden since is of no use: its setting may be another.
+  const int now = ImGui::GetFrameCount();
+  const auto is_here = [&](const TextEdit& edit) { return edit.id == id && now - edit.seen <= 1; };
+  TextEdit* const edit = is_here(ui.edit) ? &ui.edit : is_here(ui.left) ? &ui.left : nullptr;
+  std::string text = edit ? edit->text : current;
   // Another item that took over before this one was drawn leaves `text` as it was typed; Escape
   // puts back what ImGui had at the beginning, and that is no change.
   ImGui::InputTextWithHint(name.c_str(), hint, &text, ImGuiInputTextFlags_AutoSelectAll);
   frame.mark(key);
   if (ImGui::IsItemActive()) {
-    edit = {id, was_edited ? edit.start : current, text};
+    TextEdit typed{id, edit ? edit->start : current, text, now};
+    if (edit != &ui.edit) ui.left = std::move(ui.edit);
+    ui.edit = std::move(typed);
     return std::nullopt;
   }
-  if (!was_edited) return std::nullopt;
-  const std::string start = edit.start;
-  edit = {};
+  if (!edit) return std::nullopt;
+  const std::string start = std::exchange(*edit, {}).start;
   const std::string typed(app::trimmed(text));
   return typed == start ? std::nullopt : std::optional(typed);
 }
