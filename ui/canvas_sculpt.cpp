@@ -135,14 +135,8 @@ void draw_sculpt_bar(Frame& frame) {
   if (frame.ui.input.tool != Tool::kSculpt || !frame.model() || canvas.width < frame.px(200))
     return;
   frame.section = "Sculpt";
-  ImGui::SetNextWindowPos({canvas.x + canvas.width / 2, canvas.y + frame.px(8)}, ImGuiCond_Always,
-                          {0.5F, 0});
-  ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, frame.px(6));
-  ImGui::Begin("##sculpt", nullptr,
-               ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
-                   ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoFocusOnAppearing |
-                   ImGuiWindowFlags_NoNavInputs | ImGuiWindowFlags_AlwaysAutoResize);
-  ImGui::PopStyleVar();
+  begin_floating(frame, "##sculpt", {canvas.x + canvas.width / 2, canvas.y + frame.px(8)},
+                 {0.5F, 0});
   SculptForm& form = frame.ui.sculpt;
   constexpr const char* kTips[] = {"Out of the surface; with Ctrl into it.",
                                    "Into the surface; with Ctrl out of it.",

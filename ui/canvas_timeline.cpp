@@ -49,16 +49,9 @@ void draw_timeline(Frame& frame) {
   frame.ui.scrubs = false;
   if (timeline.sequence.empty() || !frame.model() || canvas.width < frame.px(300)) return;
   frame.section = "Timeline";
-  const float width = canvas.width - frame.px(32);
-  ImGui::SetNextWindowPos({canvas.x + frame.px(16), canvas.y + canvas.height - frame.px(34)},
-                          ImGuiCond_Always, {0, 1});
-  ImGui::SetNextWindowSize({width, 0});
-  ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, frame.px(6));
-  ImGui::Begin("##timeline", nullptr,
-               ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
-                   ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoFocusOnAppearing |
-                   ImGuiWindowFlags_NoNavInputs);
-  ImGui::PopStyleVar();
+  ImGui::SetNextWindowSize({canvas.width - frame.px(32), 0});
+  begin_floating(frame, "##timeline",
+                 {canvas.x + frame.px(16), canvas.y + canvas.height - frame.px(34)}, {0, 1});
   const int frames = std::max(1, frame.model()->frames);
   struct Entry {
     const char *key, *label;

@@ -56,6 +56,29 @@ void Frame::mark(std::string_view key) {
   ui.items[section + "/" + std::string(key)] = {low.x, low.y, high.x - low.x, high.y - low.y};
 }
 
+bool begin_bar(const char* name, const Rect& place, ImVec2 padding, ImGuiWindowFlags flags) {
+  if (place.width < 1 || place.height < 1) return false;
+  ImGui::SetNextWindowPos({place.x, place.y});
+  ImGui::SetNextWindowSize({place.width, place.height});
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, padding);
+  ImGui::Begin(name, nullptr,
+               ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
+                   ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoScrollWithMouse |
+                   ImGuiWindowFlags_NoBringToFrontOnFocus | flags);
+  ImGui::PopStyleVar();
+  return true;
+}
+
+void begin_floating(Frame& frame, const char* name, ImVec2 at, ImVec2 pivot) {
+  ImGui::SetNextWindowPos(at, ImGuiCond_Always, pivot);
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, frame.px(6));
+  ImGui::Begin(name, nullptr,
+               ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
+                   ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoFocusOnAppearing |
+                   ImGuiWindowFlags_NoNavInputs | ImGuiWindowFlags_AlwaysAutoResize);
+  ImGui::PopStyleVar();
+}
+
 bool draw_section(Frame& frame, const char* name, bool open_at_first) {
   frame.section = name;
   auto& open = frame.ui.layout.open;

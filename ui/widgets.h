@@ -14,6 +14,14 @@
 // within its section.
 namespace geotherm::ui {
 
+/// A window that fills its place; ImGui::End() must follow. False: it has no size. `padding`: about
+/// what it holds, in pixels.
+bool begin_bar(const char* name, const Rect& place, ImVec2 padding, ImGuiWindowFlags flags);
+
+/// A window over the picture, as large as what it holds; ImGui::End() must follow. `pivot`: the
+/// share of its size that lies before `at`.
+void begin_floating(Frame& frame, const char* name, ImVec2 at, ImVec2 pivot);
+
 /// A heading that opens and closes what follows; remembered in the layout. True: open.
 bool draw_section(Frame& frame, const char* name, bool open_at_first = true);
 
