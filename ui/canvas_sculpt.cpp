@@ -154,10 +154,7 @@ void draw_sculpt_bar(Frame& frame) {
   draw_slider(frame, "strength", form.strength, kMinStrength, 1,
               "How far a touch moves the middle, in radii; smoothing: towards the mean.");
   ImGui::SameLine(0, frame.px(12));
-  if (draw_button(frame, "undo", "Undo", is_possible(frame, Action::kUndo))) {
-    perform(frame, Action::kUndo);
-  }
-  draw_tip(frame, "Takes the last stroke back (Ctrl+Z).");
+  draw_action(frame, "undo", "Undo", Action::kUndo, "Takes the last stroke back (Ctrl+Z).");
   ImGui::SameLine();
   if (draw_button(frame, "close", "\u00d7")) perform(frame, Action::kSculpt);
   draw_tip(frame, "Ends sculpting (s, Esc).");

@@ -66,11 +66,7 @@ void draw_timeline(Frame& frame) {
       {"loop", "loop", Action::kLoop, "Whether the first frame follows the last (l)."}};
   for (const Entry& entry : entries) {
     const bool sign = entry.label[0] == '\xe2';
-    const bool on = is_on(frame, entry.action), possible = is_possible(frame, entry.action);
-    if (draw_toggle(frame, {entry.key, entry.label, on, possible}, frame.px(sign ? 30 : 58))) {
-      perform(frame, entry.action);
-    }
-    draw_tip(frame, entry.tip);
+    draw_action(frame, entry.key, entry.label, entry.action, entry.tip, frame.px(sign ? 30 : 58));
     ImGui::SameLine();
   }
   const std::string last = " / " + std::to_string(frames - 1);

@@ -49,6 +49,15 @@ std::string cut_to(const std::string& text, float width) {
   return front + dots;
 }
 
+void show_tip(const Frame& frame, std::string_view text) {
+  if (text.empty()) return;
+  ImGui::BeginTooltip();
+  ImGui::PushTextWrapPos(frame.px(kTipWidth));
+  draw_text(text);
+  ImGui::PopTextWrapPos();
+  ImGui::EndTooltip();
+}
+
 }  // namespace
 
 void Frame::mark(std::string_view key) {
@@ -134,12 +143,7 @@ void draw_heading(Frame& frame, const char* text) {
 }
 
 void draw_tip(Frame& frame, std::string_view text) {
-  if (text.empty() || !ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) return;
-  ImGui::BeginTooltip();
-  ImGui::PushTextWrapPos(frame.px(kTipWidth));
-  draw_text(text);
-  ImGui::PopTextWrapPos();
-  ImGui::EndTooltip();
+  if (ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) show_tip(frame, text);
 }
 
 void draw_label(Frame& frame, std::string_view label, std::string_view help) {
@@ -178,15 +182,8 @@ void draw_value(Frame& frame, std::string_view label, std::string_view value, st
   const float bottom = corner.y + ImGui::GetTextLineHeight();
   if (ImGui::IsWindowHovered() &&
       ImGui::IsMouseHoveringRect(corner, {corner.x + right - begin, bottom})) {
-    const std::string tip =
-        shown == whole ? std::string(help) : whole + (help.empty() ? "" : "\n" + std::string(help));
-    if (!tip.empty()) {
-      ImGui::BeginTooltip();
-      ImGui::PushTextWrapPos(frame.px(kTipWidth));
-      draw_text(tip);
-      ImGui::PopTextWrapPos();
-      ImGui::EndTooltip();
-    }
+    const std::string help_below = help.empty() ? "" : "\n" + std::string(help);
+    show_tip(frame, shown == whole ? std::string(help) : whole + help_below);
   }
 }
 
@@ -290,6 +287,32 @@ std::optional<std::string> draw_field(Frame& frame, std::string_view key,
   const std::string start = std::exchange(*edit, {}).start;
   const std::string typed(app::trimmed(text));
   return typed == start ? std::nullopt : std::optional(typed);
+}
+
+void draw_action(Frame& frame, std::string_view key, const char* label, Action action,
+                 std::string_view tip, float width) {
+  const Segment segment{key, label, is_on(frame, action), is_possible(frame, action)};
+  if (draw_toggle(frame, segment, width)) perform(frame, action);
+  draw_tip(frame, tip);
+}
+
+std::optional<std::string> draw_slider_row(Frame& frame, std::string_view key, double current,
+                                           double low, double high, ImGuiSliderFlags flags) {
+  const float width = ImGui::GetContentRegionAvail().x;
+  const float gap = ImGui::GetStyle().ItemInnerSpacing.x;
+  std::optional<std::string> chosen;
+  double moved = current;
+  ImGui::SetNextItemWidth(width * 0.6F - gap);
+  if (ImGui::SliderScalar(("##slider " + std::string(key)).c_str(), ImGuiDataType_Double, &moved,
+                          &low, &high, "", flags | ImGuiSliderFlags_NoInput)) {
+    const std::string text = app::significant(moved, 3);
+    if (app::number_in<double>(text) != current) chosen = text;
+  }
+  frame.mark(std::string(key) + " slider");
+  ImGui::SameLine(0, gap);
+  ImGui::SetNextItemWidth(-FLT_MIN);
+  if (const auto typed = draw_field(frame, key, exact(current))) chosen = typed;
+  return chosen;
 }
 
 }  // namespace geotherm::ui

@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "ui/action.h"
 #include "ui/frame.h"
 
 // Rows of the panels: a label on the left, what belongs to it on the right. `key` names the item
@@ -73,6 +74,14 @@ bool draw_toggle(Frame& frame, const Segment& segment, float width);
 std::optional<std::string> draw_choice(Frame& frame, std::string_view key,
                                        const std::string& current,
                                        std::span<const std::string> values);
+
+/// A button that performs an action, lit while that is on.
+void draw_action(Frame& frame, std::string_view key, const char* label, Action action,
+                 std::string_view tip, float width = 0);
+
+/// A slider with a field beside it. What it is moved to or what is typed.
+std::optional<std::string> draw_slider_row(Frame& frame, std::string_view key, double current,
+                                           double low, double high, ImGuiSliderFlags flags = 0);
 
 /// A field that holds `current` and gives what was typed once it is left or Enter is pressed.
 std::optional<std::string> draw_field(Frame& frame, std::string_view key,
