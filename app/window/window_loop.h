@@ -54,8 +54,8 @@ class FrameClock {
   std::deque<Clock::time_point> begins_;
 };
 
-/// How large panels are in ImGui's points on a monitor of a scale, which is pixels where a point is
-/// one (X11) and is in the points already where they have several (Wayland).
+/// The scale of panels in ImGui's points, on a monitor that asks for `monitor` times as many pixels
+/// as usual: on Wayland points have these pixels already, on X11 a point is a pixel.
 inline float panel_scale(float monitor, float pixels_per_point) {
   return monitor / pixels_per_point;
 }
