@@ -32,18 +32,6 @@ constexpr std::pair<Action, View> kViews[] = {
     {Action::kNonDelaunay, View::kNonDelaunay},
 };
 
-constexpr std::pair<Action, FilePurpose> kPurposes[] = {
-    {Action::kOpenModel, FilePurpose::kOpenModel},
-    {Action::kOpenSession, FilePurpose::kOpenSession},
-    {Action::kOpenSequence, FilePurpose::kOpenSequence},
-    {Action::kSaveSession, FilePurpose::kSaveSession},
-    {Action::kSavePicture, FilePurpose::kSavePicture},
-    {Action::kSaveDistances, FilePurpose::kSaveDistances},
-    {Action::kSaveFigures, FilePurpose::kSaveFigures},
-    {Action::kSaveLog, FilePurpose::kSaveLog},
-    {Action::kSaveMesh, FilePurpose::kSaveMesh},
-};
-
 constexpr std::pair<Action, Tool> kTools[] = {
     {Action::kViewTool, Tool::kView}, {Action::kSourceTool, Tool::kSource},
     {Action::kBrush, Tool::kBrush},   {Action::kPathTool, Tool::kPath},
@@ -209,6 +197,12 @@ void show_figures(Frame& frame, const char* section) {
 void perform(Frame& frame, Action action) {
   if (!is_possible(frame, action)) return;
   if (action == Action::kCompare) show_figures(frame, kCompareSection);
+  const app::Timeline& timeline = frame.state().timeline;
+  // From the last frame on, where none follows, there would be nothing to play.
+  if (action == Action::kPlay && !timeline.playing && !timeline.loop &&
+      timeline.frame + 1 >= frame.model()->frames) {
+    frame.send(app::command::ShowFrame{0});
+  }
   if (auto command = command_of(frame, action)) {
     frame.send(*std::move(command));
     // B has become A, which can be changed: it stays in sight.
@@ -216,8 +210,7 @@ void perform(Frame& frame, Action action) {
     if (action == Action::kSwap && shows_b) frame.send(app::command::Show{app::Shown::kA});
     return;
   }
-  if (const auto purpose = find_in(kPurposes, action))
-    return frame.ui.dialog.ask(*purpose, frame.state());
+  if (const FileTask* task = file_task(action)) return frame.ui.dialog.ask(*task, frame.state());
   turn_switch(frame, action);
 }
 

@@ -26,20 +26,6 @@ ImGuiWindowFlags tab_flag() {
   return ImGui::GetIO().WantTextInput ? ImGuiWindowFlags_None : ImGuiWindowFlags_NoNavInputs;
 }
 
-bool begin_bar(const char* name, const Rect& place) {
-  if (place.width < 1 || place.height < 1) return false;
-  ImGui::SetNextWindowPos({place.x, place.y});
-  ImGui::SetNextWindowSize({place.width, place.height});
-  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {0, 0});
-  ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {0, 0});
-  ImGui::Begin(name, nullptr,
-               ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
-                   ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoScrollWithMouse |
-                   ImGuiWindowFlags_NoBringToFrontOnFocus | tab_flag());
-  ImGui::PopStyleVar(2);
-  return true;
-}
-
 /// An edge. True while it is dragged.
 bool draw_grip(Frame& frame, const char* name, ImVec2 at, ImVec2 size) {
   ImGui::SetCursorScreenPos(at);
@@ -73,7 +59,7 @@ void draw_inside(Frame& frame, ImVec2 at, ImVec2 size, Draw draw) {
 
 void draw_left(Frame& frame) {
   const Rect& place = frame.ui.places.left;
-  if (!begin_bar("##left", place)) return;
+  if (!begin_bar("##left", place, {0, 0}, tab_flag())) return;
   const float grip = frame.px(kGrip);
   draw_inside(frame, {place.x, place.y}, {place.width - grip, place.height}, [](Frame& inside) {
     draw_view_panel(inside);
@@ -92,7 +78,7 @@ void draw_left(Frame& frame) {
 
 void draw_right(Frame& frame) {
   const Rect& place = frame.ui.places.right;
-  if (!begin_bar("##right", place)) return;
+  if (!begin_bar("##right", place, {0, 0}, tab_flag())) return;
   const float grip = frame.px(kGrip);
   draw_inside(frame, {place.x + grip, place.y}, {place.width - grip, place.height},
               [](Frame& inside) {
@@ -112,7 +98,7 @@ void draw_right(Frame& frame) {
 
 void draw_log(Frame& frame) {
   const Rect& place = frame.ui.places.log;
-  if (!begin_bar("##log", place)) return;
+  if (!begin_bar("##log", place, {0, 0}, tab_flag())) return;
   const float grip = frame.px(kGrip);
   draw_inside(frame, {place.x, place.y + grip}, {place.width, place.height - grip}, draw_log_panel);
   if (draw_grip(frame, "log edge", {place.x, place.y}, {place.width, grip})) {
@@ -192,18 +178,11 @@ State what_goes_on(const Frame& frame) {
 
 void draw_status_bar(Frame& frame) {
   const Rect& place = frame.ui.places.status;
-  if (place.width < 1) return;
   frame.section = "Status";
-  ImGui::SetNextWindowPos({place.x, place.y});
-  ImGui::SetNextWindowSize({place.width, place.height});
-  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {frame.px(10), 0});
   ImGui::PushStyleColor(ImGuiCol_WindowBg, frame.colours().window);
-  ImGui::Begin("##status", nullptr,
-               ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
-                   ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoScrollWithMouse |
-                   ImGuiWindowFlags_NoBringToFrontOnFocus | ImGuiWindowFlags_NoNavInputs);
+  const bool shown = begin_bar("##status", place, {frame.px(10), 0}, ImGuiWindowFlags_NoNavInputs);
   ImGui::PopStyleColor();
-  ImGui::PopStyleVar();
+  if (!shown) return;
   ImGui::AlignTextToFramePadding();
 
   // A picture that rests has no rate.

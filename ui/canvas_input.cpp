@@ -19,6 +19,7 @@ constexpr double kTurnPerHeight = 220;  ///< degrees for a drag across the pictu
 constexpr double kZoomPerHeight = 3.5;  ///< logarithm of the zoom for a drag across it
 constexpr double kZoomPerNotch = 1.15;
 constexpr std::size_t kMaxPlaces = 20000;  ///< of more, none can be aimed at
+constexpr int kMaxRings = 300;             ///< about sources; more cover each other and the model
 constexpr double kOffersUndo = 12;         ///< seconds
 constexpr double kHidden = 0.02;  ///< of the model's size: a place that far behind is not seen
 
@@ -343,13 +344,15 @@ void CanvasInput::draw_source_marks(Frame& frame) const {
   ImDrawList* list = ImGui::GetBackgroundDrawList();
   const auto& places = frame.explored().places;
   std::optional<std::array<float, 2>> last;  // of a curve, one beside the other is enough
-  for (std::size_t i = 0; i < places.size(); ++i) {
+  int rings = 0;
+  for (std::size_t i = 0; i < places.size() && rings < kMaxRings; ++i) {
     if (i != pointed_at && places[i].entry != frame.ui.sources.pointed) continue;
     const auto seen = frame.canvas.place_of(places[i].position);
     if (!seen) continue;
     const ImVec2 at((*seen)[0], (*seen)[1]);
     if (last && std::hypot(at.x - (*last)[0], at.y - (*last)[1]) < frame.px(2 * kReach)) continue;
     last = seen;
+    ++rings;
     list->AddCircle(at, frame.px(kReach), packed({0, 0, 0, 0.5F}), 0, frame.px(3.5F));
     list->AddCircle(at, frame.px(kReach), packed(frame.colours().accent), 0, frame.px(1.8F));
   }

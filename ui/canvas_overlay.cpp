@@ -21,11 +21,6 @@ constexpr double kNoticeTime = 12;  ///< seconds
 constexpr std::size_t kMaxNotices = 3;
 constexpr float kNoticesShare = 0.45F;  ///< of the height of the picture, whose middle stays free
 
-constexpr ImGuiWindowFlags kFloating =
-    ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
-    ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_NoNavInputs |
-    ImGuiWindowFlags_AlwaysAutoResize;
-
 void draw_centred(const char* text) {
   const float width = ImGui::CalcTextSize(text).x;
   ImGui::SetCursorPosX(std::max(0.0F, (ImGui::GetWindowWidth() - width) / 2));
@@ -37,13 +32,11 @@ bool begin_middle(Frame& frame, const char* name, float width) {
   const Rect& canvas = frame.ui.places.canvas;
   width = std::min(frame.px(width), canvas.width - frame.px(16));
   if (width < frame.px(120) || canvas.height < frame.px(120)) return false;
-  ImGui::SetNextWindowPos({canvas.x + canvas.width / 2, canvas.y + canvas.height / 2},
-                          ImGuiCond_Always, {0.5F, 0.5F});
   ImGui::SetNextWindowSizeConstraints({width, 0}, {width, canvas.height - frame.px(8)});
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {frame.px(20), frame.px(18)});
-  ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, frame.px(6));
-  ImGui::Begin(name, nullptr, kFloating);
-  ImGui::PopStyleVar(2);
+  begin_floating(frame, name, {canvas.x + canvas.width / 2, canvas.y + canvas.height / 2},
+                 {0.5F, 0.5F});
+  ImGui::PopStyleVar();
   return true;
 }
 
@@ -165,14 +158,12 @@ void draw_notices(Frame& frame) {
   const float width = std::min(frame.px(460), canvas.width - frame.px(24));
   if (notices.empty() || width < frame.px(100)) return;
   frame.section = "Notices";
-  ImGui::SetNextWindowPos({canvas.x + canvas.width / 2, canvas.y + canvas.height - frame.px(12)},
-                          ImGuiCond_Always, {0.5F, 1});
   ImGui::SetNextWindowSizeConstraints({width, 0},
                                       {width, std::max(1.0F, canvas.height * kNoticesShare)});
-  ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, frame.px(6));
   ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, ImGui::GetStyle().FrameBorderSize);
-  ImGui::Begin("##notices", nullptr, kFloating);
-  ImGui::PopStyleVar(2);
+  begin_floating(frame, "##notices",
+                 {canvas.x + canvas.width / 2, canvas.y + canvas.height - frame.px(12)}, {0.5F, 1});
+  ImGui::PopStyleVar();
   for (Notice& notice : notices) {
     const Palette& p = frame.colours();
     const bool error = notice.kind == app::LogLine::Kind::kError;

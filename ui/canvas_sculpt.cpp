@@ -135,14 +135,8 @@ void draw_sculpt_bar(Frame& frame) {
   if (frame.ui.input.tool != Tool::kSculpt || !frame.model() || canvas.width < frame.px(200))
     return;
   frame.section = "Sculpt";
-  ImGui::SetNextWindowPos({canvas.x + canvas.width / 2, canvas.y + frame.px(8)}, ImGuiCond_Always,
-                          {0.5F, 0});
-  ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, frame.px(6));
-  ImGui::Begin("##sculpt", nullptr,
-               ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
-                   ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoFocusOnAppearing |
-                   ImGuiWindowFlags_NoNavInputs | ImGuiWindowFlags_AlwaysAutoResize);
-  ImGui::PopStyleVar();
+  begin_floating(frame, "##sculpt", {canvas.x + canvas.width / 2, canvas.y + frame.px(8)},
+                 {0.5F, 0});
   SculptForm& form = frame.ui.sculpt;
   constexpr const char* kTips[] = {"Out of the surface; with Ctrl into it.",
                                    "Into the surface; with Ctrl out of it.",
@@ -160,10 +154,7 @@ void draw_sculpt_bar(Frame& frame) {
   draw_slider(frame, "strength", form.strength, kMinStrength, 1,
               "How far a touch moves the middle, in radii; smoothing: towards the mean.");
   ImGui::SameLine(0, frame.px(12));
-  if (draw_button(frame, "undo", "Undo", is_possible(frame, Action::kUndo))) {
-    perform(frame, Action::kUndo);
-  }
-  draw_tip(frame, "Takes the last stroke back (Ctrl+Z).");
+  draw_action(frame, "undo", "Undo", Action::kUndo, "Takes the last stroke back (Ctrl+Z).");
   ImGui::SameLine();
   if (draw_button(frame, "close", "\u00d7")) perform(frame, Action::kSculpt);
   draw_tip(frame, "Ends sculpting (s, Esc).");

@@ -49,16 +49,9 @@ void draw_timeline(Frame& frame) {
   frame.ui.scrubs = false;
   if (timeline.sequence.empty() || !frame.model() || canvas.width < frame.px(300)) return;
   frame.section = "Timeline";
-  const float width = canvas.width - frame.px(32);
-  ImGui::SetNextWindowPos({canvas.x + frame.px(16), canvas.y + canvas.height - frame.px(34)},
-                          ImGuiCond_Always, {0, 1});
-  ImGui::SetNextWindowSize({width, 0});
-  ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, frame.px(6));
-  ImGui::Begin("##timeline", nullptr,
-               ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
-                   ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoFocusOnAppearing |
-                   ImGuiWindowFlags_NoNavInputs);
-  ImGui::PopStyleVar();
+  ImGui::SetNextWindowSize({canvas.width - frame.px(32), 0});
+  begin_floating(frame, "##timeline",
+                 {canvas.x + frame.px(16), canvas.y + canvas.height - frame.px(34)}, {0, 1});
   const int frames = std::max(1, frame.model()->frames);
   struct Entry {
     const char *key, *label;
@@ -73,11 +66,7 @@ void draw_timeline(Frame& frame) {
       {"loop", "loop", Action::kLoop, "Whether the first frame follows the last (l)."}};
   for (const Entry& entry : entries) {
     const bool sign = entry.label[0] == '\xe2';
-    const bool on = is_on(frame, entry.action), possible = is_possible(frame, entry.action);
-    if (draw_toggle(frame, {entry.key, entry.label, on, possible}, frame.px(sign ? 30 : 58))) {
-      perform(frame, entry.action);
-    }
-    draw_tip(frame, entry.tip);
+    draw_action(frame, entry.key, entry.label, entry.action, entry.tip, frame.px(sign ? 30 : 58));
     ImGui::SameLine();
   }
   const std::string last = " / " + std::to_string(frames - 1);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <iterator>
 #include <system_error>
 #include <utility>
 
@@ -84,40 +85,52 @@ constexpr std::string_view kMeshes[] = {".obj", ".ply", ".off", ".stl"};
 constexpr std::string_view kSequences[] = {".npy", ".pc2", ".mdd", ".glb", ".gltf"};
 constexpr std::string_view kFigures[] = {".json"};
 
+template <class Kind>
+app::Command made(std::string path) {
+  return Kind{std::move(path)};
+}
+
 }  // namespace
 
-const FileTask& file_task(FilePurpose purpose) {
+const FileTask* file_task(Action action) {
+  using namespace app;
   static const FileTask kTasks[] = {
-      {FilePurpose::kOpenModel, "Open a model", "Open", false, app::model_extensions()},
-      {FilePurpose::kOpenSession, "Open a session", "Open", false, kScripts},
-      {FilePurpose::kSavePicture, "Save the picture", "Save", true, kPictures},
-      {FilePurpose::kSaveDistances, "Save the distances", "Save", true, kDistances},
-      {FilePurpose::kSaveSession, "Save the session", "Save", true, kSessions},
-      {FilePurpose::kSaveLog, "Save the log of commands", "Save", true, kSessions},
-      {FilePurpose::kSaveFigures, "Save the report", "Save", true, kFigures},
-      {FilePurpose::kSaveMesh, "Save the mesh", "Save", true, kMeshes},
-      {FilePurpose::kOpenSequence, "Open a sequence", "Open", false, kSequences},
+      {Action::kOpenModel, "Open a model", "Open", false, model_extensions(), made<command::Open>},
+      {Action::kOpenSession, "Open a session", "Open", false, kScripts, made<command::Run>},
+      {Action::kOpenSequence, "Open a sequence", "Open", false, kSequences,
+       made<command::ShowSequence>},
+      {Action::kSavePicture, "Save the picture", "Save", true, kPictures,
+       made<command::SavePicture>},
+      {Action::kSaveDistances, "Save the distances", "Save", true, kDistances,
+       made<command::SaveDistances>},
+      {Action::kSaveSession, "Save the session", "Save", true, kSessions,
+       made<command::SaveSession>},
+      {Action::kSaveLog, "Save the log of commands", "Save", true, kSessions,
+       made<command::SaveLog>},
+      {Action::kSaveFigures, "Save the report", "Save", true, kFigures, made<command::SaveFigures>},
+      {Action::kSaveMesh, "Save the mesh", "Save", true, kMeshes, made<command::SaveMesh>},
   };
-  return kTasks[static_cast<std::size_t>(purpose)];  // in the order of the enumeration
+  const auto* const found = std::ranges::find(kTasks, action, &FileTask::action);
+  return found == std::end(kTasks) ? nullptr : found;
 }
 
 std::string suggested_name(const std::string& model, const FileTask& task) {
   std::string name = std::filesystem::path(model).stem().string();
   if (name.empty()) name = "geotherm";
-  if (task.purpose == FilePurpose::kSaveLog) name += "-log";
-  if (task.purpose == FilePurpose::kSaveMesh) name += "-sculpted";
+  if (task.action == Action::kSaveLog) name += "-log";
+  if (task.action == Action::kSaveMesh) name += "-sculpted";
   return name + std::string(task.extensions.front());
 }
 
 namespace fs = std::filesystem;
 
-void FileDialog::ask(FilePurpose purpose, const app::ViewerState& state) {
-  purpose_ = purpose;
+void FileDialog::ask(const FileTask& task, const app::ViewerState& state) {
+  task_ = &task;
   asked_ = true;
-  question_ = all_files_ = false;
+  replaced_.clear();
+  all_files_ = false;
   take_focus_ = true;
   error_.clear();
-  const FileTask& task = file_task(purpose);
   name_ = task.saves ? suggested_name(state.model, task) : "";
   if (as_shown_ || !app::parse_size(size_)) size_ = app::size_text(state.picture);
   std::error_code error;
@@ -127,8 +140,8 @@ void FileDialog::ask(FilePurpose purpose, const app::ViewerState& state) {
 }
 
 void FileDialog::list() {
-  listing_ = list_folder(
-      folder_, all_files_ ? std::span<const std::string_view>() : file_task(purpose_).extensions);
+  listing_ =
+      list_folder(folder_, all_files_ ? std::span<const std::string_view>() : task_->extensions);
   error_ = listing_.error;
 }
 
@@ -143,15 +156,15 @@ void FileDialog::enter(const fs::path& folder) {
   error_ = why;
 }
 
-bool FileDialog::is_sized() const { return purpose_ == FilePurpose::kSavePicture && !as_shown_; }
+bool FileDialog::is_sized() const { return task_->action == Action::kSavePicture && !as_shown_; }
 
 bool FileDialog::is_of_pixels() const {
-  return !has_extension(name_, std::span(file_task(purpose_).extensions).subspan(1));
+  return !has_extension(name_, std::span(task_->extensions).subspan(1));
 }
 
 void FileDialog::accept(Frame& frame) {
   if (name_.empty()) return;
-  const FileTask& task = file_task(purpose_);
+  const FileTask& task = *task_;
   fs::path file = typed_path(name_, folder_);
   std::error_code ignored;
   if (fs::is_directory(file, ignored)) {
@@ -177,47 +190,23 @@ void FileDialog::accept(Frame& frame) {
       return;
     }
   }
-  if (fs::exists(file, ignored) && !question_) {
-    question_ = true;
+  if (fs::exists(file, ignored) && file != replaced_) {
+    replaced_ = file;
     return;
   }
   finish(frame, file);
 }
 
 void FileDialog::finish(Frame& frame, const fs::path& file) {
-  using namespace app;
-  const std::string path = file.string();
-  switch (purpose_) {
-    case FilePurpose::kOpenModel:
-      frame.send(command::Open{path});
-      break;
-    case FilePurpose::kOpenSession:
-      frame.ui.write_question.send(frame, command::Run{path});
-      break;
-    case FilePurpose::kSavePicture: {
-      command::SavePicture save{path, {}, panels_ && is_of_pixels()};
-      if (is_sized()) save.size = *parse_size(size_);
-      frame.send(std::move(save));
-      break;
-    }
-    case FilePurpose::kSaveDistances:
-      frame.send(command::SaveDistances{path});
-      break;
-    case FilePurpose::kSaveSession:
-      frame.send(command::SaveSession{path});
-      break;
-    case FilePurpose::kSaveLog:
-      frame.send(command::SaveLog{path});
-      break;
-    case FilePurpose::kSaveFigures:
-      frame.send(command::SaveFigures{path});
-      break;
-    case FilePurpose::kSaveMesh:
-      frame.send(command::SaveMesh{path});
-      break;
-    case FilePurpose::kOpenSequence:
-      frame.send(command::ShowSequence{path});
-      break;
+  app::Command command = task_->make(file.string());
+  if (auto* const save = std::get_if<app::command::SavePicture>(&command)) {
+    save->panels = panels_ && is_of_pixels();
+    if (is_sized()) save->size = *app::parse_size(size_);
+  }
+  if (task_->saves) {  // what that replaces has been asked here
+    frame.send(std::move(command));
+  } else {
+    frame.ui.write_question.send(frame, std::move(command));
   }
   folder_ = file.parent_path();
   done_ = true;

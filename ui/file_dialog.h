@@ -8,7 +8,9 @@
 #include <string_view>
 #include <vector>
 
+#include "app/session/command.h"
 #include "app/session/state.h"
+#include "ui/action.h"
 
 namespace geotherm::ui {
 
@@ -37,23 +39,23 @@ std::filesystem::path typed_path(const std::string& text, const std::filesystem:
 
 struct Frame;
 
-enum class FilePurpose {
-  kOpenModel,
-  kOpenSession,
-  kSavePicture,
-  kSaveDistances,
-  kSaveSession,
-  kSaveLog,
-  kSaveFigures,
-  kSaveMesh,
-  kOpenSequence,
+/// What a file dialog is opened for.
+struct FileTask {
+  Action action;
+  const char* title;
+  const char* verb;  ///< on the button
+  bool saves;
+  std::span<const std::string_view> extensions;  ///< the default first
+  app::Command (*make)(std::string path);
 };
+/// Null where the action asks for no file.
+const FileTask* file_task(Action action);
 
 /// Asks for a file and sends the command that reads or writes it. One at a time, over all else.
 class FileDialog {
  public:
   /// Opens with the next draw(), in the folder of the last time.
-  void ask(FilePurpose purpose, const app::ViewerState& state);
+  void ask(const FileTask& task, const app::ViewerState& state);
   void draw(Frame& frame);
 
  private:
@@ -74,28 +76,18 @@ class FileDialog {
   void accept(Frame& frame);
   void finish(Frame& frame, const std::filesystem::path& file);
 
-  FilePurpose purpose_ = FilePurpose::kOpenModel;
+  const FileTask* task_ = file_task(Action::kOpenModel);
   bool asked_ = false;
   bool done_ = false;  ///< closes at the end of this frame
   std::filesystem::path folder_;
   FolderListing listing_;
   std::string name_, error_;
   bool all_files_ = false;
-  bool question_ = false;    ///< whether to replace a file
-  bool take_focus_ = false;  ///< of the field for the name
-  std::string size_;         ///< of a picture
+  std::filesystem::path replaced_;  ///< the file that a question is about; empty: none
+  bool take_focus_ = false;         ///< of the field for the name
+  std::string size_;                ///< of a picture
   bool as_shown_ = true, panels_ = false;
 };
-
-/// What a file dialog is opened for.
-struct FileTask {
-  FilePurpose purpose;
-  const char* title;
-  const char* verb;  ///< on the button
-  bool saves;
-  std::span<const std::string_view> extensions;  ///< the default first
-};
-const FileTask& file_task(FilePurpose purpose);
 
 /// A name for a new file, after the model's.
 std::string suggested_name(const std::string& model, const FileTask& task);

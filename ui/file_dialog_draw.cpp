@@ -22,16 +22,16 @@ void FileDialog::draw(Frame& frame) {
   frame.section = "Files";
   if (asked_) ImGui::OpenPopup(kName);
   asked_ = false;
-  if (!begin_dialog(frame, kName, file_task(purpose_).title, 700, 500)) return;
+  if (!begin_dialog(frame, kName, task_->title, 700, 500)) return;
   done_ = false;
   draw_folder(frame);
   draw_entries(frame, -height_below(frame));
-  if (question_) {
+  if (!replaced_.empty()) {
     draw_question(frame);
   } else {
     draw_name(frame);
     draw_formats(frame);
-    if (purpose_ == FilePurpose::kSavePicture) draw_picture_options(frame);
+    if (task_->action == Action::kSavePicture) draw_picture_options(frame);
     draw_buttons(frame);
   }
   if (done_) ImGui::CloseCurrentPopup();
@@ -74,7 +74,7 @@ void FileDialog::draw_entries(Frame& frame, float height) {
       if (clicked && entry.is_folder) into = folder_ / entry.name;
       if (clicked && !entry.is_folder) {
         name_ = entry.name;
-        question_ = false;
+        replaced_.clear();
         taken = ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left);
       }
       if (entry.is_folder) continue;
@@ -102,10 +102,9 @@ void FileDialog::draw_name(Frame& frame) {
 }
 
 void FileDialog::draw_formats(Frame& frame) {
-  const FileTask& task = file_task(purpose_);
-  if (task.saves) {
+  if (task_->saves) {
     draw_label(frame, "format");
-    for (const std::string_view extension : task.extensions) {
+    for (const std::string_view extension : task_->extensions) {
       const std::string text(extension);
       const bool on = has_extension(name_, {&extension, 1});
       if (draw_toggle(frame, {text, text.c_str(), on}, frame.px(90))) {
@@ -114,7 +113,7 @@ void FileDialog::draw_formats(Frame& frame) {
       ImGui::SameLine();
     }
   } else {
-    draw_label(frame, "files", "Listed are " + app::joined(task.extensions, " "));
+    draw_label(frame, "files", "Listed are " + app::joined(task_->extensions, " "));
   }
   if (draw_checkbox(frame, "all files", "list all files", all_files_)) list();
 }
@@ -137,33 +136,33 @@ void FileDialog::draw_picture_options(Frame& frame) {
 
 void FileDialog::draw_buttons(Frame& frame) {
   draw_note(error_.empty() ? " " : error_, frame.colours().error);
-  const FileTask& task = file_task(purpose_);
   const float width = frame.px(110);
   const float gap = ImGui::GetStyle().ItemSpacing.x;
   ImGui::SetCursorPosX(ImGui::GetWindowContentRegionMax().x - 2 * width - gap);
   if (draw_button(frame, "cancel", "Cancel", true, width) || is_escape_pressed()) done_ = true;
   ImGui::SameLine();
-  if (draw_button(frame, "accept", task.verb, !name_.empty(), width)) accept(frame);
+  if (draw_button(frame, "accept", task_->verb, !name_.empty(), width)) accept(frame);
   // Enter in the field has been dealt with there.
   if (!done_ && !ImGui::GetIO().WantTextInput && is_enter_pressed()) accept(frame);
 }
 
 void FileDialog::draw_question(Frame& frame) {
-  const std::string name = typed_path(name_, folder_).filename().string();
+  const std::string name = replaced_.filename().string();
   draw_note(name + " is there already. Replace it?", frame.colours().warning);
+  frame.mark("replaces " + name);
   const float width = frame.px(110);
   if (draw_button(frame, "replace", "Replace", true, width) || is_enter_pressed()) accept(frame);
   ImGui::SameLine();
   if (draw_button(frame, "keep", "Keep", true, width) || is_escape_pressed()) {
-    question_ = false;
+    replaced_.clear();
     take_focus_ = true;
   }
 }
 
 float FileDialog::height_below(const Frame& frame) const {
   const float line = ImGui::GetFrameHeightWithSpacing();
-  if (question_) return 2 * line + frame.px(4);
-  const float rows = purpose_ == FilePurpose::kSavePicture ? 4 : 3;
+  if (!replaced_.empty()) return 2 * line + frame.px(4);
+  const float rows = task_->action == Action::kSavePicture ? 4 : 3;
   // A message may need two lines.
   const float messages = error_.empty() ? 1 : 2;
   return rows * line + messages * ImGui::GetTextLineHeightWithSpacing() + frame.px(4);

@@ -37,6 +37,7 @@ struct TextEdit {
   ImGuiID id = 0;
   std::string start;  ///< what it held at first
   std::string text;
+  int seen = 0;  ///< ImGui's frame in which the field was typed in last
 };
 
 struct SourcesForm {
@@ -83,7 +84,7 @@ struct UiState {
   Places places;
   Drawer drawer = Drawer::kNone;
   std::map<std::string, Rect, std::less<>> items;  ///< where they were drawn in this frame
-  TextEdit edit;
+  TextEdit edit, left;  ///< left: where another field took over before it was drawn again
   CanvasInput input;
   std::optional<SurfacePoint> menu_point;         ///< of the menu that is open over the picture
   std::shared_ptr<const TriangleMesh> menu_mesh;  ///< that the point is on; null: no menu is open

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "app/session/script.h"
+#include "app/text/text.h"
 #include "ui/action.h"
 #include "ui/canvas.h"
 #include "ui/dialogs.h"
@@ -23,35 +24,6 @@ constexpr double kTurnPerSecond = 20;   ///< degrees, while the model rotates
 constexpr double kLongestFrame = 0.25;  ///< seconds; after a pause the model goes on, not leaps
 constexpr double kSaysDrop = 12;        ///< seconds
 constexpr int kAwake = 3;  ///< frames that ImGui needs until it shows what a click has done
-
-struct KeyPlace {
-  ImGuiKey key;
-  int code;
-};
-constexpr KeyPlace kEditing[] = {
-    {ImGuiKey_Tab, kKeyTab},
-    {ImGuiKey_LeftArrow, kKeyLeft},
-    {ImGuiKey_RightArrow, kKeyRight},
-    {ImGuiKey_UpArrow, kKeyUp},
-    {ImGuiKey_DownArrow, kKeyDown},
-    {ImGuiKey_PageUp, kKeyPageUp},
-    {ImGuiKey_PageDown, kKeyPageDown},
-    {ImGuiKey_Home, kKeyHome},
-    {ImGuiKey_End, kKeyEnd},
-    {ImGuiKey_Insert, kKeyInsert},
-    {ImGuiKey_Delete, kKeyDelete},
-    {ImGuiKey_Backspace, kKeyBackspace},
-    {ImGuiKey_Space, kKeySpace},
-    {ImGuiKey_Enter, kKeyEnter},
-    {ImGuiKey_Escape, kKeyEscape},
-    {ImGuiKey_KeyPadEnter, kKeyPadEnter},
-    {ImGuiKey_A, 'A'},
-    {ImGuiKey_C, 'C'},
-    {ImGuiKey_V, 'V'},
-    {ImGuiKey_X, 'X'},
-    {ImGuiKey_Y, 'Y'},
-    {ImGuiKey_Z, 'Z'},
-};
 
 /// Whether the user does anything: then a few frames follow, until all of it is seen.
 bool is_active() {
@@ -132,12 +104,9 @@ Interface::Interface(Layout layout, std::span<const std::byte> font, float scale
   ImGuiIO& io = ImGui::GetIO();
   io.IniFilename = nullptr;  // what is remembered is the layout
   io.LogFilename = nullptr;
+  io.BackendFlags |= ImGuiBackendFlags_RendererHasVtxOffset;  // lists of more than 65,536 vertices
   io.ConfigWindowsMoveFromTitleBarOnly = true;
   io.ConfigInputTextCursorBlink = false;  // a window that nobody touches draws nothing
-  for (const KeyPlace& place : kEditing) {
-    // A window system has said so before; without one these numbers hold as well.
-    if (io.KeyMap[place.key] < 0) io.KeyMap[place.key] = place.code;
-  }
   set_scale(scale);
 }
 

@@ -55,7 +55,8 @@ struct FrameOutput {
 class Interface {
  public:
   /// `font`: bytes of a TrueType file that outlive this; `scale`: of everything, 2 on HiDPI.
-  /// Precondition: an ImGui context is current. Loads the font and sets the style.
+  /// Precondition: an ImGui context is current, and has its keys. Loads the font and sets the
+  /// style.
   Interface(Layout layout, std::span<const std::byte> font, float scale);
   ~Interface();
 

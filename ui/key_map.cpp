@@ -94,8 +94,8 @@ struct NamedKey {
   std::string_view name;
   int code;
 };
-constexpr NamedKey kNamed[] = {{"Esc", kKeyEscape}, {"Tab", kKeyTab},       {"Enter", kKeyEnter},
-                               {"Home", kKeyHome},  {"Delete", kKeyDelete}, {"Space", kKeySpace}};
+constexpr NamedKey kNamed[] = {
+    {"Esc", kKeyEscape}, {"Tab", kKeyTab}, {"Delete", kKeyDelete}, {"Space", kKeySpace}};
 
 /// "Ctrl+Shift+Z" -> the modifiers and "Z".
 std::pair<Modifiers, std::string_view> without_modifiers(std::string_view text) {

@@ -53,16 +53,14 @@ void draw_ab_panel(Frame& frame) {
   const app::ViewerState& state = frame.state();
   const bool kept = state.kept.has_value();
   const float width = button_width(3);
-  if (draw_button(frame, "keep", "Keep as B", is_possible(frame, Action::kKeep), width)) {
-    perform(frame, Action::kKeep);
-  }
-  draw_tip(frame, "Keeps the present settings as B (k), to compare others with.");
+  draw_action(frame, "keep", "Keep as B", Action::kKeep,
+              "Keeps the present settings as B (k), to compare others with.", width);
   ImGui::SameLine();
-  if (draw_button(frame, "swap", "Swap", kept, width)) perform(frame, Action::kSwap);
-  draw_tip(frame,
-           "Makes B what the solver panel changes. While B is shown it stays in sight, as A.");
+  draw_action(frame, "swap", "Swap", Action::kSwap,
+              "Makes B what the solver panel changes. While B is shown it stays in sight, as A.",
+              width);
   ImGui::SameLine();
-  if (draw_button(frame, "forget", "Forget B", kept, width)) perform(frame, Action::kForget);
+  draw_action(frame, "forget", "Forget B", Action::kForget, "", width);
   if (!kept) {
     return draw_dim(frame,
                     "Keep these settings as B, then change them: both answers stay at hand.");

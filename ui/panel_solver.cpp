@@ -54,22 +54,10 @@ std::string rounded_time(const Frame& frame) {
 
 void draw_factor(Frame& frame) {
   draw_setting_label(frame, *app::find_setting("time-factor"));
-  const double current = frame.state().options.time_step.factor;
-  const float width = ImGui::GetContentRegionAvail().x;
-  const float gap = ImGui::GetStyle().ItemInnerSpacing.x;
-  double factor = current;
-  ImGui::SetNextItemWidth(width * 0.6F - gap);
-  if (ImGui::SliderScalar("##slider", ImGuiDataType_Double, &factor, &kMinFactor, &kMaxFactor, "",
-                          ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_NoInput)) {
-    const std::string text = app::significant(factor, 3);
-    if (app::number_in<double>(text) != current) frame.set("time-factor", text);
-  }
-  frame.mark("time-factor slider");
-  ImGui::SameLine(0, gap);
-  ImGui::SetNextItemWidth(-FLT_MIN);
-  if (const auto typed = draw_field(frame, "time-factor", exact(current))) {
-    frame.set("time-factor", *typed);
-  }
+  const double factor = frame.state().options.time_step.factor;
+  const auto chosen = draw_slider_row(frame, "time-factor", factor, kMinFactor, kMaxFactor,
+                                      ImGuiSliderFlags_Logarithmic);
+  if (chosen) frame.set("time-factor", *chosen);
 }
 
 /// The error over m for the sources that are shown, worked out while this is open.

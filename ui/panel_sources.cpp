@@ -203,12 +203,7 @@ void draw_sources_panel(Frame& frame) {
   int column = 0;
   for (const SourceButton& button : kSourceButtons) {
     if (column++ % 3 != 0) ImGui::SameLine();
-    const bool on = is_on(frame, button.action);
-    const bool possible = is_possible(frame, button.action);
-    if (draw_toggle(frame, {button.key, button.label, on, possible}, width)) {
-      perform(frame, button.action);
-    }
-    draw_tip(frame, button.tip);
+    draw_action(frame, button.key, button.label, button.action, button.tip, width);
   }
   draw_centre(frame);
 }

@@ -18,24 +18,30 @@ void draw_colour_map(Frame& frame, const app::Setting& setting) {
   if (chosen) frame.set(setting.name, *chosen);
 }
 
-/// Two fields; an empty one is left to the data.
+/// Two fields side by side. What both hold, with a colon between, once one of them is typed into.
+std::optional<std::string> draw_pair(Frame& frame, const char* first_key, const std::string& first,
+                                     const char* second_key, const std::string& second,
+                                     const char* hint = "") {
+  const float gap = ImGui::GetStyle().ItemInnerSpacing.x;
+  ImGui::SetNextItemWidth((ImGui::GetContentRegionAvail().x - gap) / 2);
+  const auto new_first = draw_field(frame, first_key, first, hint);
+  ImGui::SameLine(0, gap);
+  ImGui::SetNextItemWidth(-FLT_MIN);
+  const auto new_second = draw_field(frame, second_key, second, hint);
+  if (!new_first && !new_second) return std::nullopt;
+  return new_first.value_or(first) + ":" + new_second.value_or(second);
+}
+
+/// An end that is empty is left to the data.
 void draw_range(Frame& frame, const app::Setting& setting) {
   const app::PictureSettings& picture = frame.state().picture;
   const auto text = [](const std::optional<double>& value) {
     return value ? exact(*value) : std::string();
   };
-  std::string low = text(picture.range_min), high = text(picture.range_max);
   draw_setting_label(frame, setting);
-  const float gap = ImGui::GetStyle().ItemInnerSpacing.x;
-  ImGui::SetNextItemWidth((ImGui::GetContentRegionAvail().x - gap) / 2);
-  const auto new_low = draw_field(frame, "range min", low, "auto");
-  ImGui::SameLine(0, gap);
-  ImGui::SetNextItemWidth(-FLT_MIN);
-  const auto new_high = draw_field(frame, "range max", high, "auto");
-  if (!new_low && !new_high) return;
-  low = new_low.value_or(low);
-  high = new_high.value_or(high);
-  frame.set(setting.name, low.empty() && high.empty() ? "auto" : low + ":" + high);
+  const auto typed = draw_pair(frame, "range min", text(picture.range_min), "range max",
+                               text(picture.range_max), "auto");
+  if (typed) frame.set(setting.name, *typed == ":" ? "auto" : *typed);
 }
 
 void draw_spacing(Frame& frame, const app::Setting& setting) {
@@ -46,31 +52,11 @@ void draw_spacing(Frame& frame, const app::Setting& setting) {
   }
 }
 
-/// A slider from 0 to 1 with a field beside it. What it is moved to or what is typed.
-std::optional<std::string> draw_share_row(Frame& frame, std::string_view name, double current) {
-  const float width = ImGui::GetContentRegionAvail().x;
-  const float gap = ImGui::GetStyle().ItemInnerSpacing.x;
-  constexpr double kLow = 0, kHigh = 1;
-  std::optional<std::string> chosen;
-  double share = current;
-  ImGui::SetNextItemWidth(width * 0.6F - gap);
-  if (ImGui::SliderScalar(("##slider " + std::string(name)).c_str(), ImGuiDataType_Double, &share,
-                          &kLow, &kHigh, "", ImGuiSliderFlags_NoInput)) {
-    const std::string text = app::significant(share, 3);
-    if (app::number_in<double>(text) != current) chosen = text;
-  }
-  frame.mark(std::string(name) + " slider");
-  ImGui::SameLine(0, gap);
-  ImGui::SetNextItemWidth(-FLT_MIN);
-  if (const auto typed = draw_field(frame, name, exact(current))) chosen = typed;
-  return chosen;
-}
-
 void draw_slice_at(Frame& frame, const app::Setting& setting) {
   const app::PictureSettings& picture = frame.state().picture;
   draw_setting_label(frame, setting);
   ImGui::BeginDisabled(!picture.slice.has_value());
-  const auto chosen = draw_share_row(frame, setting.name, picture.slice_at);
+  const auto chosen = draw_slider_row(frame, setting.name, picture.slice_at, 0, 1);
   ImGui::EndDisabled();
   if (chosen) frame.set(setting.name, *chosen);
 }
@@ -85,7 +71,7 @@ void draw_peel(Frame& frame, const app::Setting& setting) {
   }
   if (peel.side == app::PeelSide::kOff) return;
   draw_label(frame, "peel at", setting.help);
-  if (const auto share = draw_share_row(frame, "peel-at", peel.share)) {
+  if (const auto share = draw_slider_row(frame, "peel-at", peel.share, 0, 1)) {
     frame.set(setting.name, side + ":" + *share);
   }
 }
@@ -115,16 +101,9 @@ void draw_camera_number(Frame& frame, const app::Setting& setting) {
 void draw_pan(Frame& frame, const app::Setting& setting) {
   const app::CameraSettings& camera = frame.state().picture.camera;
   draw_setting_label(frame, setting);
-  std::string right = app::significant(camera.pan_right, 4);
-  std::string up = app::significant(camera.pan_up, 4);
-  const float gap = ImGui::GetStyle().ItemInnerSpacing.x;
-  ImGui::SetNextItemWidth((ImGui::GetContentRegionAvail().x - gap) / 2);
-  const auto new_right = draw_field(frame, "pan right", right);
-  ImGui::SameLine(0, gap);
-  ImGui::SetNextItemWidth(-FLT_MIN);
-  const auto new_up = draw_field(frame, "pan up", up);
-  if (!new_right && !new_up) return;
-  frame.set(setting.name, new_right.value_or(right) + ":" + new_up.value_or(up));
+  const auto typed = draw_pair(frame, "pan right", app::significant(camera.pan_right, 4), "pan up",
+                               app::significant(camera.pan_up, 4));
+  if (typed) frame.set(setting.name, *typed);
 }
 
 void draw_camera(Frame& frame) {
@@ -150,10 +129,7 @@ void draw_camera(Frame& frame) {
   }
   draw_tip(frame, "The camera as it was when the program started.");
   ImGui::SameLine();
-  if (draw_toggle(frame, {"rotate", "Rotate", frame.state().rotating, true}, width)) {
-    perform(frame, Action::kRotate);
-  }
-  draw_tip(frame, "Turns the model (p).");
+  draw_action(frame, "rotate", "Rotate", Action::kRotate, "Turns the model (p).", width);
 }
 
 }  // namespace

@@ -72,9 +72,6 @@ void set_colours(ImGuiStyle& style, const Palette& p) {
   set(ImGuiCol_FrameBg, p.frame);
   set(ImGuiCol_FrameBgHovered, raised(p.frame, 0.06F));
   set(ImGuiCol_FrameBgActive, raised(p.frame, 0.09F));
-  set(ImGuiCol_TitleBg, p.window);
-  set(ImGuiCol_TitleBgActive, p.window);
-  set(ImGuiCol_TitleBgCollapsed, p.window);
   set(ImGuiCol_MenuBarBg, p.window);
   set(ImGuiCol_ScrollbarBg, none);
   set(ImGuiCol_ScrollbarGrab, p.button);
@@ -90,18 +87,6 @@ void set_colours(ImGuiStyle& style, const Palette& p) {
   set(ImGuiCol_HeaderHovered, mixed(p.header, p.selected, 0.6F));
   set(ImGuiCol_HeaderActive, p.selected);
   set(ImGuiCol_Separator, p.border);
-  set(ImGuiCol_SeparatorHovered, p.accent);
-  set(ImGuiCol_SeparatorActive, p.accent);
-  set(ImGuiCol_ResizeGrip, none);
-  set(ImGuiCol_ResizeGripHovered, p.accent);
-  set(ImGuiCol_ResizeGripActive, p.accent);
-  set(ImGuiCol_PlotLines, p.accent);
-  set(ImGuiCol_PlotHistogram, p.accent);
-  set(ImGuiCol_PlotLinesHovered, raised(p.accent, 0.2F));
-  set(ImGuiCol_PlotHistogramHovered, raised(p.accent, 0.2F));
-  set(ImGuiCol_TableHeaderBg, p.header);
-  set(ImGuiCol_TableBorderStrong, p.border);
-  set(ImGuiCol_TableBorderLight, faded(p.border, 0.6F));
   set(ImGuiCol_TableRowBg, none);
   set(ImGuiCol_TableRowBgAlt, faded(p.header, 0.5F));
   set(ImGuiCol_TextSelectedBg, faded(p.accent, 0.4F));
@@ -134,8 +119,6 @@ void set_style(Theme theme, float scale) {
   style.PopupRounding = 4;
   style.ScrollbarRounding = 6;
   style.GrabRounding = 4;
-  style.TabRounding = 4;
-  style.WindowTitleAlign = {0, 0.5F};
   style.DisabledAlpha = 0.5F;
   style.ScaleAllSizes(scale);
   style.WindowMinSize = {1, 1};  // ImGui wants no less

@@ -74,17 +74,10 @@ std::string short_name(const app::SourceSpec& source) {
 
 void draw_toolbar(Frame& frame) {
   const Rect& place = frame.ui.places.tools;
-  if (place.width < 1 || place.height < 1) return;
   frame.section = "Tools";
-  ImGui::SetNextWindowPos({place.x, place.y});
-  ImGui::SetNextWindowSize({place.width, place.height});
   const float above = (place.height - ImGui::GetFrameHeight()) / 2;
-  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {frame.px(6), above});
+  if (!begin_bar("##tools", place, {frame.px(6), above}, ImGuiWindowFlags_NoNavInputs)) return;
   ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {frame.px(3), 0});
-  ImGui::Begin("##tools", nullptr,
-               ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
-                   ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoScrollWithMouse |
-                   ImGuiWindowFlags_NoBringToFrontOnFocus | ImGuiWindowFlags_NoNavInputs);
   for (const ToolEntry& entry : kToolEntries) {
     const bool on = frame.ui.input.tool == entry.tool;
     if (draw_toggle(frame, {entry.label, entry.label, on, is_possible(frame, entry.action)}, 0) &&
@@ -109,8 +102,8 @@ void draw_toolbar(Frame& frame) {
     ImGui::Dummy({room, line});
     draw_tip(frame, hint);
   }
+  ImGui::PopStyleVar();
   ImGui::End();
-  ImGui::PopStyleVar(2);
 }
 
 }  // namespace geotherm::ui

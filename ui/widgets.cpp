@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "app/text/text.h"
 #include "ui/frame.h"
@@ -48,11 +49,43 @@ std::string cut_to(const std::string& text, float width) {
   return front + dots;
 }
 
+void show_tip(const Frame& frame, std::string_view text) {
+  if (text.empty()) return;
+  ImGui::BeginTooltip();
+  ImGui::PushTextWrapPos(frame.px(kTipWidth));
+  draw_text(text);
+  ImGui::PopTextWrapPos();
+  ImGui::EndTooltip();
+}
+
 }  // namespace
 
 void Frame::mark(std::string_view key) {
   const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax();
   ui.items[section + "/" + std::string(key)] = {low.x, low.y, high.x - low.x, high.y - low.y};
+}
+
+bool begin_bar(const char* name, const Rect& place, ImVec2 padding, ImGuiWindowFlags flags) {
+  if (place.width < 1 || place.height < 1) return false;
+  ImGui::SetNextWindowPos({place.x, place.y});
+  ImGui::SetNextWindowSize({place.width, place.height});
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, padding);
+  ImGui::Begin(name, nullptr,
+               ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
+                   ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoScrollWithMouse |
+                   ImGuiWindowFlags_NoBringToFrontOnFocus | flags);
+  ImGui::PopStyleVar();
+  return true;
+}
+
+void begin_floating(Frame& frame, const char* name, ImVec2 at, ImVec2 pivot) {
+  ImGui::SetNextWindowPos(at, ImGuiCond_Always, pivot);
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, frame.px(6));
+  ImGui::Begin(name, nullptr,
+               ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
+                   ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoFocusOnAppearing |
+                   ImGuiWindowFlags_NoNavInputs | ImGuiWindowFlags_AlwaysAutoResize);
+  ImGui::PopStyleVar();
 }
 
 bool draw_section(Frame& frame, const char* name, bool open_at_first) {
@@ -110,12 +143,7 @@ void draw_heading(Frame& frame, const char* text) {
 }
 
 void draw_tip(Frame& frame, std::string_view text) {
-  if (text.empty() || !ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) return;
-  ImGui::BeginTooltip();
-  ImGui::PushTextWrapPos(frame.px(kTipWidth));
-  draw_text(text);
-  ImGui::PopTextWrapPos();
-  ImGui::EndTooltip();
+  if (ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) show_tip(frame, text);
 }
 
 void draw_label(Frame& frame, std::string_view label, std::string_view help) {
@@ -154,15 +182,8 @@ void draw_value(Frame& frame, std::string_view label, std::string_view value, st
   const float bottom = corner.y + ImGui::GetTextLineHeight();
   if (ImGui::IsWindowHovered() &&
       ImGui::IsMouseHoveringRect(corner, {corner.x + right - begin, bottom})) {
-    const std::string tip =
-        shown == whole ? std::string(help) : whole + (help.empty() ? "" : "\n" + std::string(help));
-    if (!tip.empty()) {
-      ImGui::BeginTooltip();
-      ImGui::PushTextWrapPos(frame.px(kTipWidth));
-      draw_text(tip);
-      ImGui::PopTextWrapPos();
-      ImGui::EndTooltip();
-    }
+    const std::string help_below = help.empty() ? "" : "\n" + std::string(help);
+    show_tip(frame, shown == whole ? std::string(help) : whole + help_below);
   }
 }
 
@@ -246,22 +267,52 @@ std::optional<std::string> draw_field(Frame& frame, std::string_view key,
                                       const std::string& current, const char* hint) {
   const std::string name = id_of(frame, key);
   const ImGuiID id = ImGui::GetID(name.c_str());
-  TextEdit& edit = frame.ui.edit;
-  const bool was_edited = edit.id == id;
-  std::string text = was_edited ? edit.text : current;
+  UiState& ui = frame.ui;
+  // What was typed into a field that was hidden since is of no use: its setting may be another.
+  const int now = ImGui::GetFrameCount();
+  const auto is_here = [&](const TextEdit& edit) { return edit.id == id && now - edit.seen <= 1; };
+  TextEdit* const edit = is_here(ui.edit) ? &ui.edit : is_here(ui.left) ? &ui.left : nullptr;
+  std::string text = edit ? edit->text : current;
   // Another item that took over before this one was drawn leaves `text` as it was typed; Escape
   // puts back what ImGui had at the beginning, and that is no change.
   ImGui::InputTextWithHint(name.c_str(), hint, &text, ImGuiInputTextFlags_AutoSelectAll);
   frame.mark(key);
   if (ImGui::IsItemActive()) {
-    edit = {id, was_edited ? edit.start : current, text};
+    TextEdit typed{id, edit ? edit->start : current, text, now};
+    if (edit != &ui.edit) ui.left = std::move(ui.edit);
+    ui.edit = std::move(typed);
     return std::nullopt;
   }
-  if (!was_edited) return std::nullopt;
-  const std::string start = edit.start;
-  edit = {};
+  if (!edit) return std::nullopt;
+  const std::string start = std::exchange(*edit, {}).start;
   const std::string typed(app::trimmed(text));
   return typed == start ? std::nullopt : std::optional(typed);
+}
+
+void draw_action(Frame& frame, std::string_view key, const char* label, Action action,
+                 std::string_view tip, float width) {
+  const Segment segment{key, label, is_on(frame, action), is_possible(frame, action)};
+  if (draw_toggle(frame, segment, width)) perform(frame, action);
+  draw_tip(frame, tip);
+}
+
+std::optional<std::string> draw_slider_row(Frame& frame, std::string_view key, double current,
+                                           double low, double high, ImGuiSliderFlags flags) {
+  const float width = ImGui::GetContentRegionAvail().x;
+  const float gap = ImGui::GetStyle().ItemInnerSpacing.x;
+  std::optional<std::string> chosen;
+  double moved = current;
+  ImGui::SetNextItemWidth(width * 0.6F - gap);
+  if (ImGui::SliderScalar(("##slider " + std::string(key)).c_str(), ImGuiDataType_Double, &moved,
+                          &low, &high, "", flags | ImGuiSliderFlags_NoInput)) {
+    const std::string text = app::significant(moved, 3);
+    if (app::number_in<double>(text) != current) chosen = text;
+  }
+  frame.mark(std::string(key) + " slider");
+  ImGui::SameLine(0, gap);
+  ImGui::SetNextItemWidth(-FLT_MIN);
+  if (const auto typed = draw_field(frame, key, exact(current))) chosen = typed;
+  return chosen;
 }
 
 }  // namespace geotherm::ui

@@ -8,11 +8,20 @@
 #include <string_view>
 #include <vector>
 
+#include "ui/action.h"
 #include "ui/frame.h"
 
 // Rows of the panels: a label on the left, what belongs to it on the right. `key` names the item
 // within its section.
 namespace geotherm::ui {
+
+/// A window that fills its place; ImGui::End() must follow. False: it has no size. `padding`: about
+/// what it holds, in pixels.
+bool begin_bar(const char* name, const Rect& place, ImVec2 padding, ImGuiWindowFlags flags);
+
+/// A window over the picture, as large as what it holds; ImGui::End() must follow. `pivot`: the
+/// share of its size that lies before `at`.
+void begin_floating(Frame& frame, const char* name, ImVec2 at, ImVec2 pivot);
 
 /// A heading that opens and closes what follows; remembered in the layout. True: open.
 bool draw_section(Frame& frame, const char* name, bool open_at_first = true);
@@ -65,6 +74,14 @@ bool draw_toggle(Frame& frame, const Segment& segment, float width);
 std::optional<std::string> draw_choice(Frame& frame, std::string_view key,
                                        const std::string& current,
                                        std::span<const std::string> values);
+
+/// A button that performs an action, lit while that is on.
+void draw_action(Frame& frame, std::string_view key, const char* label, Action action,
+                 std::string_view tip, float width = 0);
+
+/// A slider with a field beside it. What it is moved to or what is typed.
+std::optional<std::string> draw_slider_row(Frame& frame, std::string_view key, double current,
+                                           double low, double high, ImGuiSliderFlags flags = 0);
 
 /// A field that holds `current` and gives what was typed once it is left or Enter is pressed.
 std::optional<std::string> draw_field(Frame& frame, std::string_view key,

@@ -78,6 +78,15 @@ Result<void> SceneScreen::update_data(const Session& session) {
   const Explored& explored = session.explored();
   const ViewerState& state = session.state();
   if (!explored.model) return {};
+  const Uploaded now{explored.version, state.shown, state.picture};
+  if (refused_ && refused_->what == now) return refused_->why;
+  refused_.reset();
+  auto done = upload(explored, now);
+  if (!done && done.error().code == ErrorCode::kOutOfMemory) refused_ = {now, done.error()};
+  return done;
+}
+
+Result<void> SceneScreen::upload(const Explored& explored, const Uploaded& now) {
   if (base_ != explored.model->base) {
     const PictureData& next = *explored.model->base;
     std::vector<glm::vec3> positions = scene_vectors(next.positions);
@@ -89,13 +98,15 @@ Result<void> SceneScreen::update_data(const Session& session) {
     uploaded_.reset();
     kept_.reset();
   }
-  const PictureDataSettings& settings = state.picture;
-  const Uploaded now{explored.version, state.shown, settings};
   if (uploaded_ == now) return {};
-  set_explored(data_, explored, state.shown, settings.view);
-  if (auto done = upload_data(settings); !done) return done;
-  uploaded_ = now;
+  uploaded_.reset();
   laid_out_.reset();
+  set_explored(data_, explored, now.shown, now.settings.view);
+  if (auto done = upload_data(now.settings); !done) {
+    data_ = *base_;  // of the answer only a part may be there: the model is drawn without
+    return done;
+  }
+  uploaded_ = now;
   return {};
 }
 
@@ -113,15 +124,15 @@ Result<void> SceneScreen::update_surface(const PictureData& next,
 /// The whole model stays on the device as it is; what is cut is uploaded with each change.
 Result<void> SceneScreen::upload_data(const PictureDataSettings& settings) {
   cut_rays_.reset();
-  if (is_cut(data_, settings)) {
-    cut_ = cut_picture(data_, settings);
-    return upload_picture(renderer_, cut_->data, settings, scene_vectors(cut_->data.positions));
+  std::optional<CutPicture> cut;
+  if (is_cut(data_, settings)) cut = cut_picture(data_, settings);
+  if (cut || cut_) {
+    auto done = cut ? upload_surface(renderer_, cut->data, scene_vectors(cut->data.positions))
+                    : upload_surface(renderer_, data_, positions_);
+    if (!done) return done;
+    cut_ = std::move(cut);  // what the device has
   }
-  if (cut_) {
-    if (auto done = upload_surface(renderer_, data_, positions_); !done) return done;
-    cut_.reset();
-  }
-  return upload_answer(renderer_, data_, settings);
+  return upload_answer(renderer_, cut_ ? cut_->data : data_, settings);
 }
 
 std::optional<RayHit> SceneScreen::hit_cut(const Vec3& origin, const Vec3& direction) const {
@@ -159,18 +170,21 @@ CameraSettings SceneScreen::tight_camera() const {
 
 Result<void> SceneScreen::update(const Session& session, const PictureArea& area) {
   area_ = area;
-  if (auto done = update_data(session); !done) return done;
+  const auto done = update_data(session);
+  if (!done && !refused_) return done;
   const PictureSettings settings = area.shown(session.state().picture);
   samples_ = settings.samples;
   Seen now{uploaded_.value_or(Uploaded()), settings, area, window_extent()};
-  if (seen_ == now) return {};
+  if (seen_ == now) return done;
   seen_ = std::move(now);
-  update_legend(settings);
-  scene_ = scene_of(data_, settings, picture_scale(data_, settings));
-  scene_.surface.visible = has_model();
+  if (done || !uploaded_) {
+    update_legend(settings);
+    scene_ = scene_of(data_, settings, picture_scale(data_, settings));
+    scene_.surface.visible = has_model();
+  }
   scene_.camera = camera_of(data_, settings.camera, positions_, area.extent, insets_);
   if (!has_model()) legend_ = {};
-  return {};
+  return done;
 }
 
 Result<void> SceneScreen::draw(const engine::PanelDraw& panels, Detail detail) {

@@ -53,8 +53,10 @@ class SceneScreen {
 
   Result<void> set_panel_font(const engine::PanelFont& font);
 
-  /// Brings data and camera up to date with the session, for a picture of this size. Cost: what has
-  /// changed since the last call.
+  /// Brings data and camera up to date with the session, for a picture of this size. Where the
+  /// device's memory ends, what was there before stays and is seen by the camera of now; it is not
+  /// tried again before something else is to be uploaded. Cost: what has changed since the last
+  /// call.
   Result<void> update(const Session& session, const PictureArea& area);
   /// A scene that was drawn before, as well or better, is shown again.
   Result<void> draw(const engine::PanelDraw& panels, Detail detail);
@@ -91,7 +93,14 @@ class SceneScreen {
  private:
   SceneScreen(engine::Device device, engine::Renderer renderer);
   static Result<std::unique_ptr<SceneScreen>> prepare(const engine::DeviceOptions& options);
+  struct Uploaded {
+    std::uint64_t version = 0;
+    Shown shown = Shown::kA;
+    PictureDataSettings settings;
+    bool operator==(const Uploaded&) const = default;
+  };
   Result<void> update_data(const Session& session);
+  Result<void> upload(const Explored& explored, const Uploaded& now);
   Result<void> update_surface(const PictureData& next, const std::vector<glm::vec3>& positions);
   Result<void> upload_data(const PictureDataSettings& settings);
   void update_legend(const PictureSettings& settings);
@@ -106,13 +115,12 @@ class SceneScreen {
   std::shared_ptr<const PictureData> base_;
   PictureData data_;
   std::vector<glm::vec3> positions_;
-  struct Uploaded {
-    std::uint64_t version = 0;
-    Shown shown = Shown::kA;
-    PictureDataSettings settings;
-    bool operator==(const Uploaded&) const = default;
-  };
   std::optional<Uploaded> uploaded_;
+  struct Refused {
+    Uploaded what;
+    Error why;
+  };
+  std::optional<Refused> refused_;  ///< what the device had no memory for
   std::optional<CutPicture> cut_;
   mutable std::optional<RayTree> cut_rays_;  ///< of cut_, made when a ray first asks
 

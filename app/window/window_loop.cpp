@@ -134,7 +134,7 @@ void WindowLoop::sleep() {
 /// The monitor's scale, or that of the command line, times what the user has chosen.
 Result<void> WindowLoop::follow_scale() {
   const float monitor = window_->content_scale().x;
-  if (start_.scale <= 0 && monitor > 0) base_scale_ = monitor;
+  if (start_.scale <= 0 && monitor > 0) base_scale_ = panel_scale(monitor, pixels_per_point());
   const float scale = base_scale_ * interface_->layout().scale;
   if (scale != interface_->scale()) {
     interface_->set_scale(scale);
@@ -192,12 +192,12 @@ ui::FrameOutput WindowLoop::lay_out_panels(bool for_file) {
 Result<void> WindowLoop::frame() {
   if (window_->wants_close()) return session_->submit(command::Quit{});
   if (const auto files = window_->take_dropped_files(); !files.empty()) interface_->drop(files);
+  clock_.begin_frame();
   auto visible = screen_->follow_window();
   if (!visible) return visible.error();
-  clock_.begin_frame();
   if (!*visible) return {};
+  window_->begin_panels();  // it says how many pixels a point has
   if (auto ready = follow_scale(); !ready) return ready;
-  window_->begin_panels();
   if (window_->has_more_input()) clock_.something_happened();
   const ui::FrameOutput out = lay_out_panels();
   if (out.cancel) session_->cancel();
@@ -230,7 +230,9 @@ bool WindowLoop::gives_way(const ui::FrameOutput& out) const {
 }
 
 Result<void> WindowLoop::draw_frame(Detail detail) {
-  if (auto updated = screen_->update(*session_, area()); !updated) return updated;
+  const auto updated = screen_->update(*session_, area());
+  // Where the device's memory ends, what it has is drawn on, with the panels that say so.
+  if (!updated && updated.error().code != ErrorCode::kOutOfMemory) return updated;
   clock_.begin_drawing();
   drawn_version_ = session_->explored().version;
   drawn_at_ = Clock::now();
@@ -241,10 +243,21 @@ Result<void> WindowLoop::draw_frame(Detail detail) {
     clock_.something_happened();  // over what that shows
     drawn = screen_->warm_up(session_->state().picture);
   }
-  return drawn;
+  if (!updated || !drawn) return drawn ? updated : drawn;
+  no_memory_for_.reset();
+  return {};
 }
 
 Result<void> WindowLoop::after_failure(const Error& error) {
+  if (error.code == ErrorCode::kOutOfMemory) {
+    // What was drawn before is still there. It is said once of what was to be drawn.
+    Wanted now{session_->explored().version, session_->state().picture};
+    if (no_memory_for_ == now) return {};
+    no_memory_for_ = std::move(now);
+    session_->say(error);
+    clock_.something_happened();
+    return {};
+  }
   session_->say(error);
   const Clock::time_point now = Clock::now();
   const bool again = last_loss_ && now - *last_loss_ < kLossPause;

@@ -54,6 +54,12 @@ class FrameClock {
   std::deque<Clock::time_point> begins_;
 };
 
+/// The scale of panels in ImGui's points, on a monitor that asks for `monitor` times as many pixels
+/// as usual: on Wayland points have these pixels already, on X11 a point is a pixel.
+inline float panel_scale(float monitor, float pixels_per_point) {
+  return monitor / pixels_per_point;
+}
+
 /// Dear ImGui's context, current while it lives.
 struct PanelContext {
   PanelContext() : context(ImGui::CreateContext()) {}
@@ -70,8 +76,8 @@ class WindowLoop {
   static Result<std::unique_ptr<WindowLoop>> open(const ViewerStart& start);
   ~WindowLoop();
 
-  /// Until the user quits. Errors: kNoDevice (lost, and it did not come back), kOutOfMemory, and
-  /// those of the commands it starts with.
+  /// Until the user quits. Errors: kNoDevice (lost, and it did not come back), and those of the
+  /// commands it starts with.
   Result<void> run();
 
  private:
@@ -110,7 +116,13 @@ class WindowLoop {
   float base_scale_ = 1;  ///< of the monitor or the command line
   FrameClock clock_;
   std::optional<std::chrono::steady_clock::time_point> last_loss_;
-  std::uint64_t drawn_version_ = 0;  ///< of Explored, in the last frame
+  struct Wanted {
+    std::uint64_t version = 0;  ///< of Explored
+    PictureDataSettings settings;
+    bool operator==(const Wanted&) const = default;
+  };
+  std::optional<Wanted> no_memory_for_;  ///< what was drawn last, and it was said
+  std::uint64_t drawn_version_ = 0;      ///< of Explored, in the last frame
   std::chrono::steady_clock::time_point drawn_at_;
   Detail detail_ = Detail::kFull;  ///< of the last frame
   double full_frame_ms_ = 0;       ///< of the last one with all samples

@@ -81,6 +81,11 @@ UiTest::UiTest(app::SessionHooks hooks) : session_(std::move(hooks)) {
   ImGuiIO& io = ImGui::GetIO();
   io.DisplaySize = {1600, 2600};
   io.DeltaTime = 1.0F / 60;
+  const std::pair<ImGuiKey, int> editing[] = {
+      {ImGuiKey_Tab, kKeyTab},     {ImGuiKey_UpArrow, kKeyUp},  {ImGuiKey_Delete, kKeyDelete},
+      {ImGuiKey_Space, kKeySpace}, {ImGuiKey_Enter, kKeyEnter}, {ImGuiKey_Escape, kKeyEscape},
+      {ImGuiKey_A, 'A'},           {ImGuiKey_Y, 'Y'},           {ImGuiKey_Z, 'Z'}};
+  for (const auto& [key, code] : editing) io.KeyMap[key] = code;
   restart(everything_open());
 }
 

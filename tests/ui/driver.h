@@ -19,6 +19,9 @@ namespace geotherm::ui {
 /// row by row from the origin, two faces a cell.
 inline constexpr int kCells = 8;
 
+/// A key that fields alone know, by the number that window systems give it.
+inline constexpr int kKeyUp = 265;
+
 /// A camera that looks straight at the square. Its side is 0.8 of the shorter side of the canvas.
 class FlatCanvas : public Canvas {
  public:

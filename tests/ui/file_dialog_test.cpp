@@ -154,6 +154,17 @@ TEST_F(FileDialogTest, AsksBeforeItReplacesAFile) {
   EXPECT_FALSE(is_open());
 }
 
+TEST_F(FileDialogTest, AsksByTheNameThatTheFileWillHave) {
+  touch(folder() / "d.csv");
+  control('D');
+  go_to(folder());
+  fill("Files/name", "d");
+  frame();
+  EXPECT_TRUE(is_drawn("Files/replaces d.csv"));
+  click_item("Files/replace");
+  EXPECT_EQ(sent(), Texts{"save distances " + (folder() / "d.csv").string()});
+}
+
 TEST_F(FileDialogTest, EscapeAtTheQuestionKeepsTheFileAndTheDialog) {
   touch(folder() / "d.csv");
   control('D');
@@ -257,16 +268,17 @@ TEST(FolderListing, UnderstandsTypedPaths) {
   }
 }
 
-TEST(FileTasks, AreInTheOrderOfTheirPurposes) {
-  for (const FilePurpose purpose :
-       {FilePurpose::kOpenModel, FilePurpose::kOpenSession, FilePurpose::kSavePicture,
-        FilePurpose::kSaveDistances, FilePurpose::kSaveSession, FilePurpose::kSaveLog,
-        FilePurpose::kSaveFigures, FilePurpose::kSaveMesh, FilePurpose::kOpenSequence}) {
-    EXPECT_EQ(file_task(purpose).purpose, purpose);
+TEST(FileTasks, AreThoseOfTheActionsThatAskForAFile) {
+  for (const Action action : {Action::kOpenModel, Action::kOpenSession, Action::kOpenSequence,
+                              Action::kSaveSession, Action::kSavePicture, Action::kSaveDistances,
+                              Action::kSaveFigures, Action::kSaveMesh, Action::kSaveLog}) {
+    ASSERT_NE(file_task(action), nullptr);
+    EXPECT_EQ(file_task(action)->action, action);
   }
-  EXPECT_EQ(suggested_name("/a/b.c/gear.stl", file_task(FilePurpose::kSavePicture)), "gear.png");
-  EXPECT_EQ(suggested_name("gear.stl", file_task(FilePurpose::kSaveMesh)), "gear-sculpted.obj");
-  EXPECT_EQ(suggested_name("", file_task(FilePurpose::kSaveFigures)), "geotherm.json");
+  EXPECT_EQ(file_task(Action::kQuit), nullptr);
+  EXPECT_EQ(suggested_name("/a/b.c/gear.stl", *file_task(Action::kSavePicture)), "gear.png");
+  EXPECT_EQ(suggested_name("gear.stl", *file_task(Action::kSaveMesh)), "gear-sculpted.obj");
+  EXPECT_EQ(suggested_name("", *file_task(Action::kSaveFigures)), "geotherm.json");
 }
 
 }  // namespace

@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: MIT
 // The tools above the picture, sources as things that can be pointed at, and what the panels say.
+#include <algorithm>
+#include <fstream>
+
 #include "app/session/explored.h"
 #include "tests/ui/driver.h"
 #include "ui/canvas.h"
@@ -161,6 +164,47 @@ TEST_F(SourceThings, AreChosenInTheListAndDeleted) {
   key(kKeyDelete);
   frame();
   EXPECT_EQ(sent(), Texts{"source remove 1"});
+}
+
+/// A list of ImGui's numbers its vertices with 16 bits.
+TEST_F(SourceThings, AreRingedWhileTheirListCanNumberTheRings) {
+  const auto vertices = [] {
+    int count = 0;
+    const ImDrawData& drawn = *ImGui::GetDrawData();
+    for (int i = 0; i < drawn.CmdListsCount; ++i) {
+      count = std::max(count, drawn.CmdLists[i]->VtxBuffer.Size);
+    }
+    return count;
+  };
+  constexpr int kSide = 40;
+  std::ofstream file(folder() / "large.obj");
+  for (int i = 0; i < kSide * kSide; ++i) {
+    file << "v " << double(i % kSide) / kSide << ' ' << double(i / kSide) / kSide << " 0\n";
+  }
+  for (int i = 1; i + kSide < kSide * kSide; ++i) {
+    if (i % kSide == 0) continue;
+    file << "f " << i << ' ' << i + 1 << ' ' << i + kSide << '\n';
+    file << "f " << i + kSide + 1 << ' ' << i + kSide << ' ' << i + 1 << '\n';
+  }
+  file.close();
+  run("open \"" + (folder() / "large.obj").string() + "\"");
+  run("source set random:1500");
+  frames(3);
+  const int before = vertices();
+  const ImVec2 name = middle_of("Sources/source 0");
+  move(name.x, name.y);
+  frames(2);
+  EXPECT_GT(vertices(), before) << "there are rings";
+  EXPECT_LT(vertices(), 1 << 16);
+}
+
+TEST_F(Tools, AreDrawnWhereOneListHasMoreVerticesThanIndicesCanNumber) {
+  ImGui::NewFrame();
+  ImDrawList& list = *ImGui::GetBackgroundDrawList();
+  for (int i = 0; i < 20000; ++i) list.AddRectFilled({0, 0}, {9, 9}, IM_COL32_WHITE);
+  ImGui::Render();
+  EXPECT_GT(list.VtxBuffer.Size, 1 << 16);
+  EXPECT_GT(list.CmdBuffer.back().VtxOffset, 0U);
 }
 
 using Said = Tools;

@@ -166,6 +166,16 @@ TEST_F(TimelineBar, PlaysFrameAfterFrameInItsTimeAndStopsWhereItDoesNotLoop) {
   EXPECT_EQ(all, (Texts{"loop off", "play on", "frame 1", "frame 2", "play off"}));
 }
 
+TEST_F(TimelineBar, PlaysFromTheFirstFrameAgainWhereNoneFollowsTheLast) {
+  run("loop off");
+  run("frame " + std::to_string(kFrames - 1));
+  frames(2);
+  sent();
+  key(kKeySpace);
+  for (int i = 0; session_.state().timeline.playing && i < 60; ++i) frame();
+  EXPECT_EQ(sent(), (Texts{"frame 0", "play on", "frame 1", "frame 2", "play off"}));
+}
+
 TEST_F(TimelineBar, ScrubsAndCloses) {
   const ImVec2 middle = middle_of("Timeline/frame");
   drag(middle, {middle.x + 4000, middle.y});
