@@ -231,7 +231,7 @@ Result<DrawnPicture> SceneScreen::picture(const PictureData& data, const Picture
   auto rest = engine::draw_picture(device_, renderer_, FigureShapes::rest_of(scene));
   if (!rest) return rest.error();
   DrawnPicture picture = to_drawn_picture(*std::move(rest));
-  picture.figure = std::make_shared<Figure>(shapes->of(shown, scene, legend.overlay));
+  picture.figure = std::make_shared<Figure>(shapes->of(shown, settings, scene, legend.overlay));
   return picture;
 }
 
