@@ -144,8 +144,9 @@ class EngineDrawing final : public Drawing {
     for (int i = 0; i < frame_count(settings); ++i) {
       scene.camera = camera_of(data, frame_camera(settings, i), fitted, extent, insets);
       std::shared_ptr<const Figure> figure;
-      if (shapes)
+      if (shapes) {
         figure = std::make_shared<Figure>(shapes->of(shown, settings, scene, layout.overlay));
+      }
       auto image = shapes ? engine::draw_picture(*device_, *renderer_, FigureShapes::rest_of(scene))
                           : engine::draw_picture(*device_, *renderer_, scene, layout.overlay);
       if (!image) {
@@ -214,9 +215,18 @@ class EngineDrawing final : public Drawing {
     const glm::ivec2 corner(glm::ceil(glm::vec2(layout.insets.left, layout.insets.top)));
     const glm::ivec2 free =
         glm::ivec2(extent - glm::vec2(layout.insets.right, layout.insets.bottom)) - corner;
+    if (free.x < columns || free.y < rows) {
+      const auto pixels = [](int x, int y) {
+        return std::to_string(std::max(x, 0)) + 'x' + std::to_string(std::max(y, 0));
+      };
+      return Error{ErrorCode::kBadInput,
+                   "a picture of " + pixels(settings.width, settings.height) + " pixels has " +
+                       pixels(free.x, free.y) + " of them for " + pixels(columns, rows) + " models",
+                   {"ask for a larger ", SettingHint{"size"}, ", or for another layout"}};
+    }
     PictureSettings one = settings;
-    one.width = std::max(free.x / columns, 1);
-    one.height = std::max(free.y / rows, 1);
+    one.width = free.x / columns;
+    one.height = free.y / rows;
     one.bar = false;
     one.title.clear();
     const glm::vec2 room(one.width, one.height);
