@@ -110,13 +110,19 @@ Result<void> SceneScreen::update_surface(const PictureData& next,
                                  : renderer_.move_surface(positions, openness);
 }
 
-/// The whole model stays on the device as it is; what is cut is uploaded with each change.
+/// The surface stays on the device as it is, also one that is cut where the cut stays: it takes
+/// milliseconds to cut, more to upload, and the most to make ready for rays.
 Result<void> SceneScreen::upload_data(const PictureDataSettings& settings) {
-  cut_rays_.reset();
   if (is_cut(data_, settings)) {
-    cut_ = cut_picture(data_, settings);
+    CutPicture next = cut_picture(data_, settings);
+    const bool stays =
+        cut_ && cut_->data.faces == next.data.faces && cut_->data.positions == next.data.positions;
+    cut_ = std::move(next);
+    if (stays) return upload_answer(renderer_, cut_->data, settings);
+    cut_rays_.reset();
     return upload_picture(renderer_, cut_->data, settings, scene_vectors(cut_->data.positions));
   }
+  cut_rays_.reset();
   if (cut_) {
     if (auto done = upload_surface(renderer_, data_, positions_); !done) return done;
     cut_.reset();
