@@ -93,7 +93,10 @@ Result<void> SceneScreen::update_data(const Session& session) {
   const Uploaded now{explored.version, state.shown, settings};
   if (uploaded_ == now) return {};
   set_explored(data_, explored, state.shown, settings.view);
-  if (auto done = upload_data(settings); !done) return done;
+  if (auto done = upload_data(settings); !done) {
+    uploaded_.reset();
+    return done;
+  }
   uploaded_ = now;
   laid_out_.reset();
   return {};
@@ -115,8 +118,8 @@ Result<void> SceneScreen::update_surface(const PictureData& next,
 Result<void> SceneScreen::upload_data(const PictureDataSettings& settings) {
   if (is_cut(data_, settings)) {
     CutPicture next = cut_picture(data_, settings);
-    const bool stays =
-        cut_ && cut_->data.faces == next.data.faces && cut_->data.positions == next.data.positions;
+    const bool stays = uploaded_ && cut_ && cut_->data.faces == next.data.faces &&
+                       cut_->data.positions == next.data.positions;
     cut_ = std::move(next);
     if (stays) return upload_answer(renderer_, cut_->data, settings);
     cut_rays_.reset();
