@@ -79,6 +79,8 @@ TEST(DifferenceScale, HasLinesOnBothSidesOfZeroThatPictureAndLegendShare) {
   EXPECT_EQ(scale.levels, (std::vector<double>{-0.75, -0.5, -0.25, 0.25, 0.5, 0.75}));
   EXPECT_EQ(app::scene_of(data, settings, scale).surface.levels.size(), scale.levels.size());
   EXPECT_EQ(legend_of(data, settings).lines.size(), scale.levels.size());
+  settings.line_spacing = 1.5;
+  EXPECT_TRUE(legend_of(data, settings).lines.empty()) << "0 is no line";
 }
 
 TEST(FieldScale, HasRoundBordersOfItsBands) {
