@@ -172,7 +172,7 @@ Result<Renderer> Renderer::build(const Device& device, int samples) {
 }
 
 Result<void> Renderer::set_surface(const SurfaceGeometry& geometry) {
-  return guarded("loading the model", [&]() -> Result<void> {
+  return guarded("loading the model", [&] {
     std::vector<std::array<std::uint32_t, 3>> faces(geometry.faces.begin(), geometry.faces.end());
     State& s = *state_;
     s.recorder.use_coarse(false);
@@ -181,14 +181,13 @@ Result<void> Renderer::set_surface(const SurfaceGeometry& geometry) {
     s.openness.assign(geometry.openness.begin(), geometry.openness.end());
     s.solid = geometry.solid;
     s.moving.reset();
-    return {};
   });
 }
 
 Result<void> Renderer::move_surface(std::span<const glm::vec3> positions,
                                     std::span<const Openness> openness) {
   assert(positions.size() == state_->positions.size());
-  return guarded("moving the model", [&]() -> Result<void> {
+  return guarded("moving the model", [&] {
     State& s = *state_;
     s.recorder.use_coarse(false);
     const bool known = s.moving.has_value();
@@ -196,20 +195,19 @@ Result<void> Renderer::move_surface(std::span<const glm::vec3> positions,
     s.openness.assign(openness.begin(), openness.end());
     if (!known || !s.moving->move(positions, openness)) {
       s.draw(s.moving->mesh(), {positions.begin(), positions.end()});
-      return {};
+      return;
     }
     s.recorder.set_vertices(s.moving->mesh().vertices);
     s.positions.assign(positions.begin(), positions.end());
     s.places.reset();
     s.coarse.reset();
-    return {};
   });
 }
 
 Result<void> Renderer::set_openness(std::span<const Openness> openness) {
   State& s = *state_;
   assert(openness.size() == s.positions.size());
-  return guarded("loading light", [&]() -> Result<void> {
+  return guarded("loading light", [&] {
     s.recorder.use_coarse(false);
     s.openness.assign(openness.begin(), openness.end());
     if (s.moving) {
@@ -218,19 +216,17 @@ Result<void> Renderer::set_openness(std::span<const Openness> openness) {
     } else {
       s.relight(build_draw_mesh({s.positions, s.faces, s.solid, s.openness}));
     }
-    return {};
   });
 }
 
 Result<void> Renderer::set_values(std::span<const float> values) {
   assert(values.size() == state_->positions.size());
-  return guarded("loading distances", [&]() -> Result<void> {
+  return guarded("loading distances", [&] {
     State& s = *state_;
     s.values_changed();
     for (std::size_t i = 0; i < s.origin.size(); ++i) s.gathered[i] = values[s.origin[i]];
     s.recorder.set_values(s.gathered);
     if (!s.regions.empty()) s.upload_regions(s.regions);
-    return {};
   });
 }
 
@@ -238,7 +234,7 @@ Result<void> Renderer::set_regions(std::span<const std::int32_t> regions,
                                    std::span<const float> margins) {
   assert(regions.empty() || regions.size() == state_->positions.size());
   assert(regions.size() == margins.size());
-  return guarded("loading regions", [&]() -> Result<void> {
+  return guarded("loading regions", [&] {
     state_->values_changed();
     std::vector<glm::vec2> kept;
     for (std::size_t v = 0; v < regions.size(); ++v) {
@@ -246,13 +242,12 @@ Result<void> Renderer::set_regions(std::span<const std::int32_t> regions,
     }
     state_->upload_regions(kept);
     state_->regions = std::move(kept);
-    return {};
   });
 }
 
 Result<void> Renderer::set_face_values(std::span<const float> values) {
   assert(values.empty() || values.size() == state_->faces.size());
-  return guarded("loading values of faces", [&]() -> Result<void> {
+  return guarded("loading values of faces", [&] {
     State& s = *state_;
     s.values_changed();
     s.face_values.assign(values.begin(), values.end());
@@ -263,51 +258,37 @@ Result<void> Renderer::set_face_values(std::span<const float> values) {
     } else {
       s.recorder.set_face_values(corners);
     }
-    return {};
   });
 }
 
 Result<void> Renderer::set_colours(const ColourTable& table) {
-  return guarded("loading colours", [&]() -> Result<void> {
-    state_->recorder.set_colours(table);
-    return {};
-  });
+  return guarded("loading colours", [&] { state_->recorder.set_colours(table); });
 }
 
 Result<void> Renderer::set_arrows(std::span<const glm::vec3> primary,
                                   std::span<const glm::vec3> secondary) {
   assert(primary.empty() || primary.size() == state_->faces.size());
   assert(secondary.empty() || secondary.size() == state_->faces.size());
-  return guarded("loading arrows", [&]() -> Result<void> {
+  return guarded("loading arrows", [&] {
     State& s = *state_;
     if (!s.places && !(primary.empty() && secondary.empty())) {
       s.places = ArrowPlaces({s.positions, s.faces, s.solid});
     }
     s.primary.assign(primary.begin(), primary.end());
     s.secondary.assign(secondary.begin(), secondary.end());
-    return {};
   });
 }
 
 Result<void> Renderer::set_lines(std::span<const Polyline> lines) {
-  return guarded("loading lines", [&]() -> Result<void> {
-    state_->lines.set(lines);
-    return {};
-  });
+  return guarded("loading lines", [&] { state_->lines.set(lines); });
 }
 
 Result<void> Renderer::set_markers(std::span<const Marker> markers) {
-  return guarded("loading sources", [&]() -> Result<void> {
-    state_->recorder.set_markers(markers);
-    return {};
-  });
+  return guarded("loading sources", [&] { state_->recorder.set_markers(markers); });
 }
 
 Result<void> Renderer::set_panel_font(const PanelFont& font) {
-  return guarded("loading letters", [&]() -> Result<void> {
-    state_->recorder.set_panel_font(font);
-    return {};
-  });
+  return guarded("loading letters", [&] { state_->recorder.set_panel_font(font); });
 }
 
 Result<void> Renderer::render(Target& target, const Scene& scene, const Overlay& overlay,

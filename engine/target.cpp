@@ -64,7 +64,7 @@ void OffscreenTarget::set_origin(glm::ivec2 origin) { state_->origin = origin; }
 glm::ivec2 OffscreenTarget::extent() const { return state_->extent; }
 
 Result<void> OffscreenTarget::begin(TargetFrame& frame) {
-  return guarded("drawing", [&]() -> Result<void> {
+  return guarded("drawing", [&] {
     State& s = *state_;
     s.commands.reset();
     s.commands.begin({vk::CommandBufferUsageFlagBits::eOneTimeSubmit});
@@ -73,12 +73,11 @@ Result<void> OffscreenTarget::begin(TargetFrame& frame) {
                                    Access::eNone, Stage::eColorAttachmentOutput,
                                    Access::eColorAttachmentWrite | Access::eColorAttachmentRead});
     frame = {&s.commands, *s.texture.image, *s.texture.view, kFormat, s.origin, true};
-    return {};
   });
 }
 
 Result<void> OffscreenTarget::end(TargetFrame& /*frame*/) {
-  return guarded("drawing", [&]() -> Result<void> {
+  return guarded("drawing", [&] {
     const State& s = *state_;
     record_transition(s.commands,
                       {*s.texture.image, vk::ImageLayout::eColorAttachmentOptimal,
@@ -94,7 +93,6 @@ Result<void> OffscreenTarget::end(TargetFrame& /*frame*/) {
     s.commands.pipelineBarrier2(vk::DependencyInfo({}, to_host));
     s.commands.end();
     submit_and_wait(*s.device, s.commands);
-    return {};
   });
 }
 

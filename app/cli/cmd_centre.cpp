@@ -152,7 +152,7 @@ std::string centres_table(const CentreFigures& f) {
 }
 
 LinePicture picture_of(const CentreFigures& f) {
-  LinePicture picture{f.model.mesh, {}, {}, 0, f.model.name + ", " + to_text(f.options.kind)};
+  LinePicture picture = picture_on(f.model, to_text(f.options.kind));
   for (const SurfacePath& path : f.paths) picture.lines.push_back({&path, {}});
   picture.markers.push_back(position_at(*f.model.mesh, f.centres.found.front().point));
   for (const SurfacePoint& point : f.points) {

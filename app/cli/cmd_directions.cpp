@@ -194,11 +194,8 @@ Result<CommandOutput> run_log_map(const LogMapArguments& arguments, const Progre
     }
     const auto grid = map_grid(mesh, *map);
     if (!grid) return grid.error();
-    LinePicture picture{work->model.mesh,
-                        {},
-                        {position_at(mesh, work->point)},
-                        0,
-                        work->model.name + ", squares of the log map"};
+    LinePicture picture = picture_on(work->model, "squares of the log map");
+    picture.markers = {position_at(mesh, work->point)};
     for (const Isoline& line : *grid) picture.lines.push_back({&line.path, line.value});
     const LineFileArguments file{{path}, ""};
     const auto written = write_line_files(file, picture, asked->picture, progress, outputs, out);
@@ -348,13 +345,9 @@ Result<CommandOutput> run_trace(const TraceArguments& arguments, const Progress&
   const double trace_ms = watch.milliseconds();
 
   CommandOutput out{"", work->warnings, {}};
-  LinePicture picture{work->model.mesh,
-                      {},
-                      {position_at(mesh, work->point)},
-                      0,
-                      work->model.name + ", " +
-                          counted(static_cast<std::int64_t>(lines.size()), "straightest line",
-                                  "straightest lines")};
+  LinePicture picture = picture_on(work->model, counted(static_cast<std::int64_t>(lines.size()),
+                                                        "straightest line", "straightest lines"));
+  picture.markers = {position_at(mesh, work->point)};
   for (const TracedLine& line : lines) picture.lines.push_back({&line.path, {}});
   const auto written =
       write_line_files(arguments.files, picture, asked->picture, progress, outputs, out);

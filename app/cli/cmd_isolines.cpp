@@ -152,15 +152,14 @@ std::string isolines_table(const Answer& figures, const std::vector<double>& lev
 }
 
 LinePicture picture_of_lines(const Answer& figures, const std::vector<Isoline>& lines) {
-  LinePicture picture;
-  picture.mesh = figures.model.mesh;
+  LinePicture picture = picture_on(
+      figures.model, to_text(figures.method->kind()) + ", " +
+                         counted(static_cast<std::int64_t>(lines.size()), "line", "lines"));
   for (const Isoline& line : lines) picture.lines.push_back({&line.path, line.value});
   for (const SurfacePoint& source : figures.sources.points) {
     picture.markers.push_back(position_at(*figures.model.mesh, source));
   }
   picture.largest_value = figures.distance.max;
-  picture.title = figures.model.name + ", " + to_text(figures.method->kind()) + ", " +
-                  counted(static_cast<std::int64_t>(lines.size()), "line", "lines");
   return picture;
 }
 

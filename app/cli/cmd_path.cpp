@@ -247,8 +247,9 @@ Result<void> find_paths(const PathTask& task, Check check, const Progress& progr
 }
 
 LinePicture picture_of_paths(const PathFigures& figures) {
-  LinePicture picture;
-  picture.mesh = figures.model.mesh;
+  LinePicture picture =
+      picture_on(figures.model, to_text(figures.options.field) + ", length " +
+                                    significant(figures.paths.front().path.length));
   for (const FoundLine& line : figures.paths) {
     picture.lines.push_back({&line.path, {}});
     for (const SurfacePoint& stop : line.stops) {
@@ -257,8 +258,6 @@ LinePicture picture_of_paths(const PathFigures& figures) {
       }
     }
   }
-  picture.title = figures.model.name + ", " + to_text(figures.options.field) + ", length " +
-                  significant(figures.paths.front().path.length);
   return picture;
 }
 

@@ -134,7 +134,9 @@ Result<void> write_levels(const std::string& path, const Model& model,
   }
   const auto lines = find_isolines(*model.mesh, found.distances, levels);
   if (!lines) return lines.error();
-  LinePicture picture{model.mesh, {}, {}, largest, model.name + ", signed distance", least};
+  LinePicture picture = picture_on(model, "signed distance");
+  picture.least_value = least;
+  picture.largest_value = largest;
   for (const Isoline& line : *lines) picture.lines.push_back({&line.path, line.value});
   for (const SurfacePath& curve : curves) picture.lines.push_back({&curve, {}});
   return write_line_files({{path}, ""}, picture, settings, progress, outputs, out);

@@ -224,7 +224,7 @@ std::string spread_table(const SpreadWork& work, const char* what, Index reached
 Result<void> write_arrows(const std::string& path, const SpreadWork& work,
                           const PictureSettings& settings, const Progress& progress,
                           Outputs& outputs, CommandOutput& out) {
-  LinePicture picture{work.model.mesh, {}, {}, 0, work.model.name + ", transported vectors"};
+  LinePicture picture = picture_on(work.model, "transported vectors");
   picture.shows_hidden = false;
   const auto lines = arrows(work);
   if (!lines) return lines.error();

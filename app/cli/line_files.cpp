@@ -43,6 +43,14 @@ Result<void> expect_line_files(const LineFileArguments& arguments, Outputs& outp
   return expect_report(arguments.json, outputs);
 }
 
+LinePicture picture_on(const Model& model, const std::string& what) {
+  LinePicture picture;
+  picture.mesh = model.mesh;
+  picture.title = model.name + ", " + what;
+  picture.up = model.up;
+  return picture;
+}
+
 Result<void> write_line_files(const LineFileArguments& arguments, const LinePicture& picture,
                               const PictureSettings& settings, const Progress& progress,
                               Outputs& outputs, CommandOutput& out) {

@@ -8,6 +8,7 @@
 #include "app/cli/cli_app.h"
 #include "app/cli/options.h"
 #include "app/picture/line_picture.h"
+#include "app/session/model.h"
 #include "app/session/outputs.h"
 #include "geotherm/path.h"
 #include "geotherm/progress.h"
@@ -26,6 +27,9 @@ void add_line_file_options(CLI::App& command, LineFileArguments& arguments,
 
 /// Errors: kBadInput and kNotAvailable (an ending, a picture's option), those of Outputs::expect().
 Result<void> expect_line_files(const LineFileArguments& arguments, Outputs& outputs);
+
+/// A picture of the model without lines, titled with its name and `what` is to be shown.
+LinePicture picture_on(const Model& model, const std::string& what);
 
 /// Writes the lines to every output; "-" is CSV, which the output's text takes. Warns of pictures
 /// that show none of them.

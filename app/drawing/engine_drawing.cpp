@@ -144,7 +144,9 @@ class EngineDrawing final : public Drawing {
     for (int i = 0; i < frame_count(settings); ++i) {
       scene.camera = camera_of(data, frame_camera(settings, i), fitted, extent, insets);
       std::shared_ptr<const Figure> figure;
-      if (shapes) figure = std::make_shared<Figure>(shapes->of(shown, scene, layout.overlay));
+      if (shapes) {
+        figure = std::make_shared<Figure>(shapes->of(shown, settings, scene, layout.overlay));
+      }
       auto image = shapes ? engine::draw_picture(*device_, *renderer_, FigureShapes::rest_of(scene))
                           : engine::draw_picture(*device_, *renderer_, scene, layout.overlay);
       if (!image) {
@@ -207,15 +209,24 @@ class EngineDrawing final : public Drawing {
                                       apart ? engine::Overlay() : layout.overlay);
     if (!whole) return whole.error();
     auto figure = std::make_shared<Figure>();
-    if (apart) figure->append(FigureShapes().of(words, blank, layout.overlay));
+    if (apart) figure->append(FigureShapes().of(words, settings, blank, layout.overlay));
 
     const int rows = (static_cast<int>(cells.size()) + columns - 1) / columns;
     const glm::ivec2 corner(glm::ceil(glm::vec2(layout.insets.left, layout.insets.top)));
     const glm::ivec2 free =
         glm::ivec2(extent - glm::vec2(layout.insets.right, layout.insets.bottom)) - corner;
+    if (free.x < columns || free.y < rows) {
+      const auto pixels = [](int x, int y) {
+        return std::to_string(std::max(x, 0)) + 'x' + std::to_string(std::max(y, 0));
+      };
+      return Error{ErrorCode::kBadInput,
+                   "a picture of " + pixels(settings.width, settings.height) + " pixels has " +
+                       pixels(free.x, free.y) + " of them for " + pixels(columns, rows) + " models",
+                   {"ask for a larger ", SettingHint{"size"}, ", or for another layout"}};
+    }
     PictureSettings one = settings;
-    one.width = std::max(free.x / columns, 1);
-    one.height = std::max(free.y / rows, 1);
+    one.width = free.x / columns;
+    one.height = free.y / rows;
     one.bar = false;
     one.title.clear();
     const glm::vec2 room(one.width, one.height);
@@ -238,7 +249,7 @@ class EngineDrawing final : public Drawing {
       if (apart) {
         const auto shapes = FigureShapes::build(shown, scene.surface);
         if (!shapes) return shapes.error();
-        figure->append(shapes->of(shown, scene, below.overlay), {place.x, place.y});
+        figure->append(shapes->of(shown, one, scene, below.overlay), {place.x, place.y});
         scene = FigureShapes::rest_of(scene);
       }
       const auto image = engine::draw_picture(*device_, *renderer_, scene,

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "app/picture/picture_scale.h"
 #include "engine/scene/line_set.h"
 #include "geotherm/path.h"
 
@@ -24,18 +25,19 @@ Vec3 to_vec3(const PictureData::Vector& v) { return {v[0], v[1], v[2]}; }
 Figure::Colour to_colour(const glm::vec3& c, float alpha = 1) { return {c.r, c.g, c.b, alpha}; }
 Figure::Colour to_colour(const glm::vec4& c) { return {c.r, c.g, c.b, c.a}; }
 
+/// Those that the renderer draws: on a colour map none lies beyond its ends.
 std::vector<double> isoline_levels(const engine::SurfaceStyle& style, double largest) {
   std::vector<double> levels(style.levels.begin(), style.levels.end());
-  if (!levels.empty()) return levels;
   constexpr double kMaxLines = 1e5;
-  if (!(style.line_spacing > 0) || largest / style.line_spacing > kMaxLines) return levels;
-  const bool mapped = style.paint == engine::Paint::kMap;
+  if (levels.empty() && style.line_spacing > 0 && largest / style.line_spacing <= kMaxLines) {
+    for (double i = 1; i * style.line_spacing <= largest; ++i) {
+      levels.push_back(i * style.line_spacing);
+    }
+  }
+  if (style.paint != engine::Paint::kMap) return levels;
   const double low = std::min(style.range_min, style.range_max);
   const double high = std::max(style.range_min, style.range_max);
-  for (double i = 1; i * style.line_spacing <= largest; ++i) {
-    const double level = i * style.line_spacing;
-    if (!mapped || (level >= low && level <= high)) levels.push_back(level);
-  }
+  std::erase_if(levels, [low, high](double level) { return level < low || level > high; });
   return levels;
 }
 
@@ -212,14 +214,16 @@ Result<FigureShapes> FigureShapes::build(const PictureData& data,
   return shapes;
 }
 
-Figure FigureShapes::of(const PictureData& data, const engine::Scene& scene,
-                        const engine::Overlay& overlay) const {
+Figure FigureShapes::of(const PictureData& data, const PictureDataSettings& settings,
+                        const engine::Scene& scene, const engine::Overlay& overlay) const {
   Figure figure;
   if (tree_) {
     const LineSight sight(*tree_, view_of(scene.camera));
     Strokes strokes(sight, scene);
     for (const auto& isoline : isolines_) strokes.add_isoline(isoline);
-    for (const PictureData::Line& line : data.lines) strokes.add_line(line);
+    for (const PictureData::Line& line : data.lines) {
+      if (shows_line(settings, line.name)) strokes.add_line(line);
+    }
     if (scene.markers.visible) strokes.add_markers(data.sources);
     figure.strokes = std::move(strokes.strokes);
   }

@@ -19,11 +19,11 @@ class FigureShapes {
   /// RayTree::build() and of the lines. Errors: those of RayTree::build().
   static Result<FigureShapes> build(const PictureData& data, const engine::SurfaceStyle& style);
 
-  /// All that lies over the surface as the scene's camera sees it: isolines, paths and markers
-  /// without what the surface hides, or as the renderer draws that, and the legend. Cost: a ray for
-  /// each point of the lines.
-  Figure of(const PictureData& data, const engine::Scene& scene,
-            const engine::Overlay& overlay) const;
+  /// All that lies over the surface as the scene's camera sees it: isolines, the paths of the kind
+  /// that `settings` ask for and markers, without what the surface hides, or as the renderer draws
+  /// that, and the legend. Cost: a ray for each point of the lines.
+  Figure of(const PictureData& data, const PictureDataSettings& settings,
+            const engine::Scene& scene, const engine::Overlay& overlay) const;
 
   /// The scene without what the shapes show.
   static engine::Scene rest_of(engine::Scene scene);

@@ -175,7 +175,8 @@ engine::Legend legend_of(const PictureData& data, const PictureSettings& setting
   }
   if (!(scale.spacing > 0) || !scale.levels.empty() || width / scale.spacing > kMaxLinesOnBar)
     return legend;
-  const double first = std::floor(scale.min / scale.spacing) + 1;
+  // Of a spacing the renderer draws the multiples above 0.
+  const double first = std::max(std::floor(scale.min / scale.spacing), 0.0) + 1;
   for (double i = first; i * scale.spacing < scale.max; ++i) {
     legend.lines.push_back(position(i * scale.spacing));
   }

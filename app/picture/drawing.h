@@ -84,7 +84,7 @@ class Drawing {
 
   /// The same of several models side by side, row after row, each over its caption, with one
   /// colour bar for all. Preconditions: open(), 1 <= columns, some cells; the settings give all of
-  /// them one scale.
+  /// them one scale. Errors: those of draw(), kBadInput (a cell has no pixel).
   virtual Result<void> draw_cells(const std::vector<PictureData>& cells, int columns,
                                   const PictureSettings& settings, const TakeFrame& frame,
                                   DrawAs as = DrawAs::kPixels) = 0;

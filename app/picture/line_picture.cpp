@@ -81,6 +81,11 @@ std::string commands(const std::vector<Outline>& outlines, bool closed) {
   return out;
 }
 
+CameraSettings camera_for(const LinePicture& picture, CameraSettings camera) {
+  if (camera.up == UpAxis::kAuto) camera.up = picture.up;
+  return camera;
+}
+
 class SvgDrawing {
  public:
   SvgDrawing(const LinePicture& picture, const PictureSettings& settings, const RayTree& tree)
@@ -89,7 +94,8 @@ class SvgDrawing {
         style_(style_of(settings.background)),
         tree_(tree),
         unit_(std::min(settings.width, settings.height) / 720.0),
-        view_(*picture.mesh, settings.camera, settings.width, settings.height, 48 * unit_),
+        view_(*picture.mesh, camera_for(picture, settings.camera), settings.width, settings.height,
+              48 * unit_),
         sight_(tree, view_) {}
 
   Result<LinePictureSvg> draw(const Progress& progress) {

@@ -20,8 +20,9 @@ struct LinePicture {
   std::vector<Vec3> markers;    ///< model units: ends of paths, sources
   double largest_value = 0;     ///< of the colour scale; 0: one colour
   std::string title;
-  double least_value = 0;    ///< where the scale begins; below 0 both sides of 0 have own colours
-  bool shows_hidden = true;  ///< of lines in one colour: dashes where the surface hides them
+  double least_value = 0;     ///< where the scale begins; below 0 both sides of 0 have own colours
+  bool shows_hidden = true;   ///< of lines in one colour: dashes where the surface hides them
+  UpAxis up = UpAxis::kAuto;  ///< that of the model's file, for cameras that leave it open
 };
 
 struct LinePictureSvg {

@@ -121,12 +121,13 @@ void set_lines(const PictureData& data, const PictureSettings& settings, bool pa
   // More lines than pixels are no lines.
   const double pixels = std::max(settings.width, settings.height);
   if (width > pixels * scale.spacing) scale.spacing = 0;
-  if (!data.is_field || scale.spacing == 0) return;
-  // Multiples below 0, and 0, are lines like the others: they are named one by one.
+  if (!(data.is_field || data.is_signed) || scale.spacing == 0) return;
+  // Multiples below 0 are lines like the others, and so is 0, but of a difference, which may be 0
+  // on a whole region: they are named one by one.
   const double first = std::floor(scale.min / scale.spacing) + 1;
   if (width > kMaxLineValues * scale.spacing) scale.spacing = 0;
   for (double i = first; scale.spacing > 0 && i * scale.spacing < scale.max; ++i) {
-    scale.levels.push_back(i * scale.spacing);
+    if (i != 0 || data.is_field) scale.levels.push_back(i * scale.spacing);
   }
 }
 

@@ -151,8 +151,9 @@ void set_explored(PictureData& data, const Explored& explored, Shown shown, View
   data.lines.clear();
   if (shown != Shown::kA && !explored.b) shown = Shown::kA;
   data.caption = caption_of(explored, shown);
-  if (explored.field && show_field(data, *explored.model->model.mesh, *explored.field)) return;
-  const Answer* answer = shown_answer(explored, shown);
+  const bool field =
+      explored.field && show_field(data, *explored.model->model.mesh, *explored.field);
+  const Answer* answer = field ? nullptr : shown_answer(explored, shown);
   if (answer != nullptr) set_answer(data, explored, shown, view, *answer);
   set_view_values(data, explored.model->model, view, answer != nullptr ? &answer->result : nullptr);
 }

@@ -121,17 +121,20 @@ Result<void> SceneScreen::update_surface(const PictureData& next,
                                  : renderer_.move_surface(positions, openness);
 }
 
-/// The whole model stays on the device as it is; what is cut is uploaded with each change.
+/// The surface stays on the device as it is, also one that is cut where the cut stays: it takes
+/// milliseconds to cut, more to upload, and the most to make ready for rays.
 Result<void> SceneScreen::upload_data(const PictureDataSettings& settings) {
-  cut_rays_.reset();
   std::optional<CutPicture> cut;
   if (is_cut(data_, settings)) cut = cut_picture(data_, settings);
-  if (cut || cut_) {
+  const bool stays = cut && cut_ && cut_->data.faces == cut->data.faces &&
+                     cut_->data.positions == cut->data.positions;
+  if (!stays) cut_rays_.reset();
+  if (!stays && (cut || cut_)) {
     auto done = cut ? upload_surface(renderer_, cut->data, scene_vectors(cut->data.positions))
                     : upload_surface(renderer_, data_, positions_);
     if (!done) return done;
-    cut_ = std::move(cut);  // what the device has
   }
+  cut_ = std::move(cut);  // its surface is what the device has
   return upload_answer(renderer_, cut_ ? cut_->data : data_, settings);
 }
 
@@ -245,7 +248,7 @@ Result<DrawnPicture> SceneScreen::picture(const PictureData& data, const Picture
   auto rest = engine::draw_picture(device_, renderer_, FigureShapes::rest_of(scene));
   if (!rest) return rest.error();
   DrawnPicture picture = to_drawn_picture(*std::move(rest));
-  picture.figure = std::make_shared<Figure>(shapes->of(shown, scene, legend.overlay));
+  picture.figure = std::make_shared<Figure>(shapes->of(shown, settings, scene, legend.overlay));
   return picture;
 }
 

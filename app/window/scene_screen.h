@@ -83,7 +83,7 @@ class SceneScreen {
   /// Null where the whole model is drawn.
   const CutPicture* cut() const { return cut_ ? &*cut_ : nullptr; }
   /// What a ray in scene space meets first of what a cut leaves. Precondition: cut() is there.
-  /// Cost: the first time after a change that of RayTree::build().
+  /// Cost: the first time after a change of the cut that of RayTree::build().
   std::optional<RayHit> hit_cut(const Vec3& origin, const Vec3& direction) const;
   const engine::Insets& insets() const { return insets_; }
   DrawingDevice device() const;
@@ -115,14 +115,14 @@ class SceneScreen {
   std::shared_ptr<const PictureData> base_;
   PictureData data_;
   std::vector<glm::vec3> positions_;
-  std::optional<Uploaded> uploaded_;
+  std::optional<Uploaded> uploaded_;  ///< none: what is there is of another model, or not whole
   struct Refused {
     Uploaded what;
     Error why;
   };
   std::optional<Refused> refused_;  ///< what the device had no memory for
   std::optional<CutPicture> cut_;
-  mutable std::optional<RayTree> cut_rays_;  ///< of cut_, made when a ray first asks
+  mutable std::optional<RayTree> cut_rays_;  ///< of cut_'s faces, made when a ray first asks
 
   std::optional<PictureSettings> laid_out_;  ///< what the legend was made for
   engine::LegendLayout legend_;

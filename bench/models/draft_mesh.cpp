@@ -5,7 +5,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <span>
 #include <utility>
+
+#include "solver/mesh/connectivity.h"
 
 namespace geotherm::generate {
 namespace {
@@ -120,11 +123,17 @@ constexpr double kFlattest = 0.5;
 constexpr double kNotDelaunay = -1e-6;
 constexpr int kMaxRounds = 20;
 
-/// Half-edge h = 3 f + c runs from corner c of face f to the next corner.
+/// Half-edge h = 3 f + c, a Side, runs from corner c of face f to the next corner.
 class Flipper {
  public:
   explicit Flipper(DraftMesh& mesh) : mesh_(mesh), twin_(3 * mesh.faces.size(), kNoIndex) {
-    pair_half_edges();
+    const EdgeTable edges(static_cast<Index>(mesh.positions.size()), mesh.faces);
+    for (Index e = 0; e < edges.edge_count(); ++e) {
+      const std::span<const Side> sides = edges.sides(e);
+      if (sides.size() != 2 || start(sides[0]) == start(sides[1])) continue;
+      twin_[at(sides[0])] = sides[1];
+      twin_[at(sides[1])] = sides[0];
+    }
   }
 
   void run() {
@@ -142,25 +151,6 @@ class Flipper {
   static Index previous(Index h) { return h % 3 == 0 ? h + 2 : h - 1; }
   Index& start(Index h) { return mesh_.faces[at(h / 3)][at(h % 3)]; }
   const Vec3& point(Index v) const { return mesh_.positions[at(v)]; }
-
-  void pair_half_edges() {
-    std::vector<Index> first(mesh_.positions.size() + 1, 0);  // half-edges by their smaller end
-    const auto low = [&](Index h) { return std::min(start(h), start(next(h))); };
-    for (Index h = 0; h < std::ssize(twin_); ++h) ++first[at(low(h)) + 1];
-    for (std::size_t v = 1; v < first.size(); ++v) first[v] += first[v - 1];
-    std::vector<Index> filled(first.begin(), first.end() - 1);
-    std::vector<Index> sorted(twin_.size());
-    for (Index h = 0; h < std::ssize(twin_); ++h) {
-      const std::size_t v = at(low(h));
-      for (Index i = first[v]; i < filled[v]; ++i) {
-        const Index other = sorted[at(i)];
-        if (start(other) != start(next(h)) || start(next(other)) != start(h)) continue;
-        twin_[at(h)] = other;
-        twin_[at(other)] = h;
-      }
-      sorted[at(filled[v]++)] = h;
-    }
-  }
 
   /// True when a face around the start of `h` has the vertex `other` as well.
   bool touches(Index h, Index other) {

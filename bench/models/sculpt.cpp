@@ -7,7 +7,8 @@
 #include <deque>
 #include <limits>
 #include <memory>
-#include <numeric>
+
+#include "solver/core/sorting.h"
 
 namespace geotherm::generate {
 namespace {
@@ -115,26 +116,21 @@ Vec3 cell_vertex(SparseField& field, const GridPoint& cell) {
 /// Keeps the connected component with the most faces (the first of equals), vertices in order.
 DraftMesh largest_component(const DraftMesh& mesh) {
   const auto at = [](Index i) { return static_cast<std::size_t>(i); };
-  std::vector<Index> parent(mesh.positions.size());
-  std::iota(parent.begin(), parent.end(), 0);
-  const auto root = [&](Index v) {
-    while (parent[at(v)] != v) v = parent[at(v)] = parent[at(parent[at(v)])];
-    return v;
-  };
+  DisjointSets components(mesh.positions.size());
   for (const Face& face : mesh.faces) {
-    parent[at(root(face[1]))] = root(face[0]);
-    parent[at(root(face[2]))] = root(face[0]);
+    components.join(face[0], face[1]);
+    components.join(face[0], face[2]);
   }
   std::vector<Index> faces_of(mesh.positions.size(), 0);
-  for (const Face& face : mesh.faces) ++faces_of[at(root(face[0]))];
+  for (const Face& face : mesh.faces) ++faces_of[at(components.root(face[0]))];
   Index most = 0;
   for (Index v = 0; v < std::ssize(faces_of); ++v) {
     if (faces_of[at(v)] > faces_of[at(most)]) most = v;
   }
   DraftMesh kept;
   std::vector<Index> renumbered(mesh.positions.size(), kNoIndex);
-  for (Index v = 0; v < std::ssize(parent); ++v) {
-    if (root(v) != most) continue;
+  for (Index v = 0; v < std::ssize(mesh.positions); ++v) {
+    if (components.root(v) != most) continue;
     renumbered[at(v)] = static_cast<Index>(kept.positions.size());
     kept.positions.push_back(mesh.positions[at(v)]);
   }

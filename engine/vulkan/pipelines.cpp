@@ -87,14 +87,13 @@ Pipelines::Pipelines(std::shared_ptr<Device::State> device)
       layout_(make_layout(device_->device, *set_layout_)) {}
 
 void Pipelines::use(vk::Format format, vk::SampleCountFlagBits samples) {
-  if (format != format_) pipelines_.clear();
   format_ = format;
   samples_ = samples;
 }
 
 vk::Pipeline Pipelines::made(std::uint32_t kind, const Plan& plan) {
   const auto samples = plan.scene ? samples_ : vk::SampleCountFlagBits::e1;
-  const std::uint32_t key = kind | static_cast<std::uint32_t>(samples) << 24U;
+  const Key key(format_, samples, kind);
   const auto known = pipelines_.find(key);
   if (known != pipelines_.end()) return *known->second;
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <map>
+#include <tuple>
 
 #include "engine/vulkan/device_state.h"
 
@@ -13,8 +14,8 @@ class Pipelines {
  public:
   explicit Pipelines(std::shared_ptr<Device::State> device);
 
-  /// Chooses the format and the sample count of the targets that will be drawn into. A change of
-  /// the format forgets all pipelines; those of both sample counts are kept.
+  /// Chooses the format and the sample count of the targets that will be drawn into. Pipelines of
+  /// others are kept: pictures that are saved have another format than the window between them.
   void use(vk::Format format, vk::SampleCountFlagBits samples);
 
   vk::DescriptorSetLayout set_layout() const { return *set_layout_; }
@@ -40,7 +41,8 @@ class Pipelines {
   vk::Format format_ = vk::Format::eUndefined;
   vk::raii::DescriptorSetLayout set_layout_;
   vk::raii::PipelineLayout layout_;
-  std::map<std::uint32_t, vk::raii::Pipeline> pipelines_;
+  using Key = std::tuple<vk::Format, vk::SampleCountFlagBits, std::uint32_t>;
+  std::map<Key, vk::raii::Pipeline> pipelines_;
 };
 
 }  // namespace geotherm::engine

@@ -5,6 +5,7 @@
 #include <new>
 #include <string>
 #include <string_view>
+#include <type_traits>
 
 #include "geotherm/error.h"
 
@@ -32,11 +33,17 @@ Hint less_memory();
 /// What a status of Vulkan means to people. `what`: what was being done ("drawing").
 Error error_of(vk::Result status, std::string_view what);
 
-/// Runs `work`, which returns a Result; no exception leaves.
-template <class Work>
-auto guarded(std::string_view what, Work&& work) -> decltype(work()) {
+/// Runs `work`, which returns a Result, or nothing for a Result<void>; no exception leaves.
+template <class Work, class Out = std::invoke_result_t<Work>>
+auto guarded(std::string_view what, Work&& work)
+    -> std::conditional_t<std::is_void_v<Out>, Result<void>, Out> {
   try {
-    return work();
+    if constexpr (std::is_void_v<Out>) {
+      work();
+      return {};
+    } else {
+      return work();
+    }
   } catch (const Failure& failure) {
     return failure.error();
   } catch (const vk::SystemError& error) {

@@ -340,17 +340,11 @@ void WindowTarget::set_picture_corner(glm::ivec2 corner) { state_->corner = corn
 glm::ivec2 WindowTarget::extent() const { return state_->swapchain.extent; }
 
 Result<void> WindowTarget::begin(TargetFrame& frame) {
-  return guarded(kDoing, [&]() -> Result<void> {
-    state_->begin(frame);
-    return {};
-  });
+  return guarded(kDoing, [&] { state_->begin(frame); });
 }
 
 Result<void> WindowTarget::end(TargetFrame& /*frame*/) {
-  return guarded(kDoing, [&]() -> Result<void> {
-    state_->end();
-    return {};
-  });
+  return guarded(kDoing, [&] { state_->end(); });
 }
 
 }  // namespace geotherm::engine

@@ -69,6 +69,20 @@ TEST(FieldScale, OfBothSignsHasZeroInTheMiddleAndLinesBelowIt) {
   EXPECT_LT(scale.levels.front(), -1);
 }
 
+TEST(DifferenceScale, HasLinesOnBothSidesOfZeroThatPictureAndLegendShare) {
+  PictureData data;
+  data.faces = {{0, 1, 2}};
+  app::add_difference(data, std::vector<double>{-1, 0.5, 0});
+  PictureSettings settings;
+  settings.line_spacing = 0.25;
+  const PictureScale scale = app::picture_scale(data, settings);
+  EXPECT_EQ(scale.levels, (std::vector<double>{-0.75, -0.5, -0.25, 0.25, 0.5, 0.75}));
+  EXPECT_EQ(app::scene_of(data, settings, scale).surface.levels.size(), scale.levels.size());
+  EXPECT_EQ(legend_of(data, settings).lines.size(), scale.levels.size());
+  settings.line_spacing = 1.5;
+  EXPECT_TRUE(legend_of(data, settings).lines.empty()) << "0 is no line";
+}
+
 TEST(FieldScale, HasRoundBordersOfItsBands) {
   PictureSettings settings;
   settings.bands = 5;

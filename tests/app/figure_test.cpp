@@ -106,10 +106,11 @@ class FigureOfSquares : public testing::Test {
   Figure figure(const engine::Overlay& overlay = {}) const {
     auto shapes = FigureShapes::build(data_, scene_.surface);
     EXPECT_TRUE(shapes) << shapes.error().message;
-    return shapes->of(data_, scene_, overlay);
+    return shapes->of(data_, settings_, scene_, overlay);
   }
 
   PictureData data_;
+  app::PictureDataSettings settings_;
   engine::Scene scene_;
 };
 
@@ -130,6 +131,30 @@ TEST_F(FigureOfSquares, ShowsIsolinesWhereTheyAreSeen) {
   engine::Scene rest = FigureShapes::rest_of(scene_);
   EXPECT_EQ(rest.surface.line_spacing, 0);
   EXPECT_FALSE(rest.lines.visible);
+}
+
+TEST_F(FigureOfSquares, HasNoIsolinesBeyondTheEndsOfTheMap) {
+  data_.lines.clear();
+  scene_.surface.levels = {0.25F, 0.5F, 0.75F};
+  scene_.surface.range_max = 0.5F;
+  const auto drawn = [this] { return figure().strokes.size(); };
+  const std::size_t within = drawn();
+  scene_.surface.levels = {0.25F, 0.5F};
+  EXPECT_EQ(within, drawn()) << "a line at an end of the map is whole";
+  scene_.surface.levels = {0.25F, 0.5F, 0.75F};
+  scene_.surface.paint = engine::Paint::kRegions;
+  EXPECT_GT(drawn(), within) << "there is no map";
+}
+
+TEST_F(FigureOfSquares, ShowsThePathsThatTheWindowShows) {
+  scene_.surface.line_spacing = 0;
+  const std::size_t one = figure().strokes.size();
+  data_.lines.push_back({{{-0.45F, 0.1F, -0.3F}, {0.45F, 0.1F, -0.3F}}, {1, 0.8F, 0}, "heat"});
+  EXPECT_EQ(figure().strokes.size(), one);
+  settings_.path_kind = app::PathKind::kHeat;
+  EXPECT_EQ(figure().strokes.size(), one);
+  settings_.path_kind = app::PathKind::kAll;
+  EXPECT_EQ(figure().strokes.size(), 2 * one);
 }
 
 TEST_F(FigureOfSquares, DashesWhatIsHiddenOfPaths) {

@@ -101,6 +101,20 @@ TEST_F(ProgramFigure, DrawsThePathThatIsAskedFor) {
   EXPECT_EQ(fields({"--path-kind", "all"}).size(), 3U);
 }
 
+TEST_F(ProgramFigure, RefusesMoreModelsThanPixels) {
+  folder.write("face.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  const auto refused = [this](const std::string& size, const std::string& columns) {
+    std::vector<std::string> words = {"render"};
+    words.insert(words.end(), 20, "face.obj");
+    words.insert(words.end(),
+                 {"--view", "flat", "--size", size, "--columns", columns, "-o", "a.png"});
+    expect_refused(words, size + " pixels");
+  };
+  refused("100x16", "1");
+  refused("16x100", "20");
+  EXPECT_EQ(files(), 1U);
+}
+
 TEST_F(ProgramFigure, RefusesWhatDoesNotGoTogether) {
   const auto refused = [&](std::vector<std::string> more, const std::string& says) {
     more.insert(more.begin(), {"render", "bunny", "-s", "17", "-o", "a.png"});

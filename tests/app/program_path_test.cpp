@@ -3,8 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <memory>
 #include <numbers>
 
+#include "app/cli/line_files.h"
 #include "tests/app/program_fixture.h"
 
 namespace geotherm::test {
@@ -94,6 +96,22 @@ TEST_F(Program, PathSaysWhenItsPictureShowsNothingOfIt) {
   before.insert(before.end(), {"--azimuth", "180"});
   EXPECT_NE(run(behind).err.find("--azimuth"), std::string::npos);
   EXPECT_EQ(run(before).err, "");
+}
+
+TEST(LinePictures, HaveThatAxisUpWhichTheFileOfTheModelSays) {
+  app::Model model;
+  model.mesh = std::make_shared<const TriangleMesh>(*TriangleMesh::build(
+      {{0, 0, 0}, {1, 0, 0}, {0, 2, 0}, {0, 0, 3}}, {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}}));
+  const auto picture_with = [&](app::UpAxis of_file, app::UpAxis asked) {
+    model.up = of_file;
+    app::PictureSettings settings;
+    settings.camera.up = asked;
+    return app::line_picture_svg(app::picture_on(model, "no lines"), settings)->text;
+  };
+  using enum app::UpAxis;
+  EXPECT_NE(picture_with(kAuto, kZ), picture_with(kAuto, kY));
+  EXPECT_EQ(picture_with(kZ, kAuto), picture_with(kAuto, kZ));
+  EXPECT_EQ(picture_with(kZ, kY), picture_with(kAuto, kY)) << "who asks decides";
 }
 
 TEST_F(Program, IsolinesAreReportedAndWritten) {

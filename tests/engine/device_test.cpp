@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "engine/vulkan/device_state.h"
+#include "engine/vulkan/pipelines.h"
 #include "engine/vulkan/vulkan.h"
 #include "tests/engine/gpu_fixture.h"
 
@@ -31,6 +32,20 @@ TEST_F(Devices, AreListedWithOneThatIsChosen) {
       std::find_if(devices.begin(), devices.end(), [](const auto& d) { return d.chosen; });
   EXPECT_TRUE(chosen->lacks.empty());
   EXPECT_EQ(chosen->name, device().info().name);
+}
+
+/// A picture that is saved has another format than the window; both are drawn in turn.
+TEST_F(Devices, KeepThePipelinesOfEachFormat) {
+  Pipelines pipelines(device().state());
+  const auto made_for = [&](vk::Format format) {
+    pipelines.use(format, vk::SampleCountFlagBits::e1);
+    return pipelines.overlay();
+  };
+  const vk::Pipeline saved = made_for(vk::Format::eR8G8B8A8Unorm);
+  const vk::Pipeline shown = made_for(vk::Format::eB8G8R8A8Unorm);
+  EXPECT_NE(saved, shown);
+  EXPECT_EQ(made_for(vk::Format::eR8G8B8A8Unorm), saved);
+  EXPECT_EQ(made_for(vk::Format::eB8G8R8A8Unorm), shown);
 }
 
 TEST_F(Devices, SayWhatTheyAre) {

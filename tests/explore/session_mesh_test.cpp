@@ -101,6 +101,16 @@ TEST_F(SessionMesh, WhatAFileHoldsIsShownInPlaceOfDistances) {
   EXPECT_NE(refused("field " + folder() + "other.npy").find("other.npy"), std::string::npos);
 }
 
+TEST_F(SessionMesh, ErrorsOfFacesGoWhenAFileIsShown) {
+  run({"open " + small_model(), "source set 5", "save distances " + folder() + "d.npy"});
+  PictureData data = picture_of(session.explored(), Shown::kA, View::kEikonalError);
+  ASSERT_FALSE(data.face_values.empty());
+  run({"field " + folder() + "d.npy"});
+  set_explored(data, session.explored(), Shown::kA, View::kEikonalError);  // as a window does
+  EXPECT_TRUE(data.is_field);
+  EXPECT_TRUE(data.face_values.empty());
+}
+
 TEST_F(SessionMesh, WeldingReadsTheModelAgainAndIsUndone) {
   run({"open " + cracked("a.obj"), "source set 0"});
   EXPECT_TRUE(std::isinf(shown().distances[6]));
