@@ -190,11 +190,9 @@ Result<std::size_t> jobs_of(const BatchArguments& arguments, const Ranks& ranks)
   if (arguments.jobs.empty()) {
     return ranks.alone() ? static_cast<std::size_t>(thread_count(0)) : std::size_t{1};
   }
-  const auto jobs = number_in<int>(arguments.jobs);
-  if (jobs && *jobs >= 1) return static_cast<std::size_t>(*jobs);
-  return Error{ErrorCode::kBadInput,
-               "--jobs: '" + one_line(arguments.jobs) + "' is no number of processes",
-               {"give a whole number from 1"}};
+  const auto jobs = whole_in("--jobs", arguments.jobs, "number of processes", 1);
+  if (!jobs) return jobs.error();
+  return static_cast<std::size_t>(*jobs);
 }
 
 /// What every model would be refused for. Errors: kBadInput, kNotAvailable.

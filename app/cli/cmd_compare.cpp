@@ -63,12 +63,9 @@ Result<Plan> plan_of(const CompareArguments& arguments) {
   const MethodOptions& options = asked->options;
   if (auto chosen = choose_solvers(arguments, options, plan.task); !chosen) return chosen.error();
   plan.reading = asked->reading;
-  const auto queries = number_in<Index>(arguments.queries);
-  if (!queries || *queries < 1 || *queries > kMaxQueries) {
-    return Error{ErrorCode::kBadInput,
-                 "--queries: '" + one_line(arguments.queries) + "' is no number of queries",
-                 {"give 1 to " + std::to_string(kMaxQueries)}};
-  }
+  const auto queries =
+      whole_in("--queries", arguments.queries, "number of queries", 1, kMaxQueries);
+  if (!queries) return queries.error();
   plan.queries = *queries;
   auto sources = sources_of(arguments.sources);
   if (!sources) return sources.error();

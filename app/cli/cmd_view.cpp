@@ -26,16 +26,9 @@
 namespace geotherm::app {
 namespace {
 
-constexpr double kMinScale = 0.5;
-constexpr double kMaxScale = 4;
-
 Result<double> scale_in(const std::string& text) {
   if (text.empty()) return 0.0;
-  const auto scale = number_in<double>(text);
-  if (scale && *scale >= kMinScale && *scale <= kMaxScale) return *scale;
-  return Error{ErrorCode::kBadInput,
-               "'" + one_line(text) + "' is no scale of panels",
-               {"give 0.5 to 4, such as 2"}};
+  return real_in("--scale", text, "scale of panels", "give 0.5 to 4, such as 2", 0.5, 4);
 }
 
 Result<std::vector<SourceSpec>> sources_in(const SourceArguments& arguments) {
@@ -276,7 +269,7 @@ Result<CommandOutput> run_view(const ViewArguments& given, Drawing& drawing, Vie
   auto commands = commands_of(arguments, colour_maps);
   if (!commands) return commands.error();
   const auto scale = scale_in(arguments.scale);
-  if (!scale) return about("--scale", scale.error());
+  if (!scale) return scale.error();
   if (is_headless(arguments)) return run_headless(arguments, *commands, drawing, progress);
 
   // A window that opens to say that there is no such file helps nobody.

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <limits>
 #include <map>
 #include <span>
 #include <string>
@@ -84,6 +85,15 @@ std::vector<std::string> typed_sources(const SourceArguments& arguments);
 
 /// One point that an option names. Errors: kBadInput.
 Result<Source> single_point(const std::string& text, const std::string& option);
+
+/// The number that an option is given, a whole one in digits or as 2e6. `what`: "number of frames".
+/// Errors: kBadInput, with the option's name and the range, or with `hint`.
+Result<Index> whole_in(const std::string& option, const std::string& text, const std::string& what,
+                       Index least, Index most = std::numeric_limits<Index>::max());
+Result<double> real_in(const std::string& option, const std::string& text, const std::string& what,
+                       const std::string& hint = {},
+                       double least = std::numeric_limits<double>::lowest(),
+                       double most = std::numeric_limits<double>::max());
 
 /// The option may be given several times, each time with one value.
 CLI::Option* may_repeat(CLI::Option* option, const std::string& value_name);
