@@ -249,7 +249,6 @@ Result<CommandOutput> run_render(const RenderArguments& typed, Drawing& drawing,
   PictureFigures figures;
   figures.model_argument = arguments.model;
   figures.sources = typed_sources(arguments.sources);
-  figures.command = typed_command();
   figures.settings = *settings;
   figures.device = *std::move(device);
   figures.paths = picture_paths(arguments.output, *settings);

@@ -99,7 +99,6 @@ Result<CommandOutput> run_render_models(const RenderArguments& arguments, const 
     PictureFigures& figures = all.emplace_back();
     figures.model_argument = model;
     figures.sources = typed_sources(arguments.sources);
-    figures.command = typed_command();
     figures.settings = asked.settings;
     figures.device = device;
     figures.paths = picture_paths(arguments.output, asked.settings);
@@ -113,10 +112,10 @@ Result<CommandOutput> run_render_models(const RenderArguments& arguments, const 
       warnings = figures.solve->warnings;
     }
     for (Warning& warning : warnings) {
-      warning.message.insert(0, figures.model + ": ");
+      warning.message.insert(0, figures.model.name + ": ");
       out.warnings.push_back(std::move(warning));
     }
-    data->caption = figures.model;
+    data->caption = figures.model.name;
     cells.push_back(*std::move(data));
   }
   PictureSettings shared = asked.settings;
