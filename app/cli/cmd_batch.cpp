@@ -233,10 +233,7 @@ void add_batch_options(CLI::App& command, BatchArguments& arguments) {
                                 "models solved at the same time, each in a process of its own; "
                                 "default: one a core, and one a rank under mpirun")
                     ->type_name("N"));
-  own.push_back(
-      command
-          .add_option("--json", arguments.json, "how many were done, as JSON; - is standard output")
-          ->type_name("FILE"));
+  own.push_back(add_json_option(command, arguments.json, "how many were done,"));
   add_quiet_option(command, arguments.quiet);
   own.push_back(command.get_option("--quiet"));
   add_source_options(command, arguments.solve.sources);

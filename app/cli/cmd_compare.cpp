@@ -163,7 +163,7 @@ void add_compare_options(CLI::App& command, CompareArguments& arguments) {
       "queries a backend, default 10; iterative backends stop after about 5 s");
   add("--reference", arguments.reference, "NAME",
       "the backend from which differences are measured, default the first");
-  add("--json", arguments.json, "FILE", "every figure as JSON; - is standard output");
+  add_json_option(command, arguments.json);
   add("--csv", arguments.csv, "FILE", "the same as CSV");
   add("--html", arguments.html, "FILE", "table and chart as a page of its own");
   add_quiet_option(command, arguments.quiet);

@@ -139,8 +139,7 @@ void add_render_options(CLI::App& command, RenderArguments& arguments) {
           "scene")
       ->type_name("FILE")
       ->required();
-  command.add_option("--json", arguments.json, "every figure as JSON; - is standard output")
-      ->type_name("FILE");
+  add_json_option(command, arguments.json);
   may_repeat(command.add_option(
                  "--path", arguments.targets,
                  "draws the path from the nearest source to this point (17, face:ID:b0:b1:b2, "

@@ -297,8 +297,7 @@ void add_sample_options(CLI::App& command, SampleArguments& arguments) {
                   "covered with it (relaxed: face, weights, position): .csv .npy, or - for CSV on "
                   "standard output; .txt is a source file of other commands")
       ->type_name("FILE");
-  command.add_option("--json", arguments.json, "every figure as JSON; - is standard output")
-      ->type_name("FILE");
+  add_json_option(command, arguments.json);
   add_check_options(command, arguments.check);
   add_quiet_option(command, arguments.quiet);
   add_setting_options(command, arguments.settings, names_of(SettingGroup::kMethod));

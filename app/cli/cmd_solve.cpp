@@ -128,8 +128,7 @@ void add_solve_options(CLI::App& command, SolveArguments& arguments) {
                  "--sequence .npy "
                  "and .pvd"),
              "FILE");
-  command.add_option("--json", arguments.json, "every figure as JSON; - is standard output")
-      ->type_name("FILE");
+  add_json_option(command, arguments.json);
   command
       .add_flag("--check", arguments.check.check,
                 "holds the distances against the most accurate method that fits, and looks for a "

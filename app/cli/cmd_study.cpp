@@ -179,8 +179,7 @@ void add_study_options(CLI::App& command, StudyArguments& arguments) {
       .add_option("--factors", arguments.factors,
                   "time factors m that are tried, the same ratio apart, default 0.1:100:13")
       ->type_name("LEAST:MOST:COUNT");
-  command.add_option("--json", arguments.json, "every figure as JSON; - is standard output")
-      ->type_name("FILE");
+  add_json_option(command, arguments.json);
   command.add_option("--svg", arguments.svg, "the error as curves, .svg; - is standard output")
       ->type_name("FILE");
   add_quiet_option(command, arguments.quiet);

@@ -230,7 +230,7 @@ std::vector<Subcommand> subcommands(CLI::App& root, Drawing& drawing, ViewerWind
   const auto render = [&](const RenderArguments& arguments, const Progress& progress) {
     return run_render(arguments, drawing, progress);
   };
-  const auto devices = [&](const DevicesArguments& arguments) {
+  const auto devices = [&](const ListArguments& arguments) {
     return run_devices(arguments, drawing);
   };
   const auto completion = [&](const std::string& shell) { return run_completion(shell, root); };
@@ -275,10 +275,10 @@ std::vector<Subcommand> subcommands(CLI::App& root, Drawing& drawing, ViewerWind
                  add_study_options, run_study),
       subcommand("generate", "Writes a bundled model.", add_generate_options, run_generate),
       subcommand("backends", "The linear solvers of this build, the default first.",
-                 add_backends_options, run_backends),
-      subcommand("devices", "What can draw on this machine, the default marked.",
-                 add_devices_options, devices),
-      subcommand("models", "The bundled models.", add_models_options, run_models),
+                 add_list_options, run_backends),
+      subcommand("devices", "What can draw on this machine, the default marked.", add_list_options,
+                 devices),
+      subcommand("models", "The bundled models.", add_list_options, run_models),
       subcommand("completion", "A script by which a shell completes commands, options and values.",
                  add_completion_options, completion),
       subcommand("help", "The help of a command.", add_help_options, help),

@@ -28,6 +28,11 @@ void add_quiet_option(CLI::App& command, bool& quiet) {
   command.add_flag("--quiet", quiet, "no progress bar, no estimate of time");
 }
 
+CLI::Option* add_json_option(CLI::App& command, std::string& json, const std::string& what) {
+  return command.add_option("--json", json, what + " as JSON; - is standard output")
+      ->type_name("FILE");
+}
+
 Result<Index> whole_in(const std::string& option, const std::string& text, const std::string& what,
                        Index least, Index most) {
   const auto number = count_in(text);

@@ -67,6 +67,9 @@ void face_head_on(const Model& model, const SettingArguments& typed, PictureSett
 CLI::Option* add_model_option(CLI::App& command, std::string& model, SettingArguments& settings);
 void add_source_options(CLI::App& command, SourceArguments& arguments);
 void add_quiet_option(CLI::App& command, bool& quiet);
+/// --json; `what` is written there, for the help.
+CLI::Option* add_json_option(CLI::App& command, std::string& json,
+                             const std::string& what = "every figure");
 /// --max-distance, and what it says. Errors: kBadInput.
 void add_max_distance_option(CLI::App& command, std::string& text);
 /// `what`: "the distances", for the help.
