@@ -125,12 +125,10 @@ constexpr int kMaxFactors = 200;
 
 /// LEAST:MOST:COUNT.
 Result<std::vector<double>> parse_factors(const std::string& text) {
-  const std::size_t first = text.find(':');
-  const std::size_t second = first == std::string::npos ? first : text.find(':', first + 1);
-  if (second != std::string::npos) {
-    const auto least = number_in<double>(text.substr(0, first));
-    const auto most = number_in<double>(text.substr(first + 1, second - first - 1));
-    const auto count = number_in<int>(text.substr(second + 1));
+  const std::vector<std::string_view> parts = split(text, ':');
+  if (parts.size() == 3) {
+    const auto least = number_in<double>(parts[0]), most = number_in<double>(parts[1]);
+    const auto count = number_in<int>(parts[2]);
     if (least && most && count && *least >= kMinFactor && *most <= kMaxFactor && *least < *most &&
         *count >= 2 && *count <= kMaxFactors) {
       return study_factors(*least, *most, *count);
