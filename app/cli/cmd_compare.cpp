@@ -81,13 +81,9 @@ Result<Plan> plan_of(const CompareArguments& arguments) {
 }
 
 Result<void> expect_outputs(const CompareArguments& arguments, Outputs& outputs) {
-  for (const auto& [path, option] : {std::pair{&arguments.json, "--json"},
-                                     {&arguments.csv, "--csv"},
-                                     {&arguments.html, "--html"}}) {
-    if (path->empty()) continue;
-    if (auto expected = outputs.expect(*path, option); !expected) return expected;
-  }
-  return {};
+  if (auto fits = expect_report(arguments.json, outputs); !fits) return fits;
+  if (auto fits = expect_report(arguments.csv, outputs, "--csv"); !fits) return fits;
+  return expect_report(arguments.html, outputs, "--html");
 }
 
 /// The sources that were named, the same for each query; or single vertices at random.

@@ -57,10 +57,7 @@ Result<void> check_output(const RenderArguments& arguments, const PictureSetting
 Result<void> expect_outputs(const RenderArguments& arguments, const PictureSettings& settings,
                             Outputs& outputs) {
   if (auto known = check_output(arguments, settings); !known) return known;
-  for (const std::string& path : picture_paths(arguments.output, settings)) {
-    if (auto expected = outputs.expect(path, "--output"); !expected) return expected;
-  }
-  return expect_report(arguments.json, outputs);
+  return expect_files(picture_paths(arguments.output, settings), arguments.json, outputs);
 }
 
 Result<std::vector<Source>> sources_for(const RenderArguments& arguments, View view) {

@@ -61,8 +61,7 @@ Result<void> expect_output(const SolveArguments& arguments, Outputs& outputs) {
                  "the type of numbers is that of a .npy file",
                  {"give -o FILE.npy, or leave --dtype and --float32 out"}};
   }
-  if (auto expected = outputs.expect(path, "--output"); !expected) return expected;
-  return expect_report(arguments.json, outputs);
+  return expect_files(arguments.outputs, arguments.json, outputs);
 }
 
 /// Takes the distances of frame after frame and makes files of them.

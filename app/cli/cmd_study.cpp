@@ -161,12 +161,8 @@ Result<void> expect_outputs(const StudyArguments& arguments, Outputs& outputs) {
     return Error{ErrorCode::kBadInput,
                  "--svg: " + one_line(arguments.svg) + ": the plot is written as .svg"};
   }
-  for (const auto& [path, option] :
-       {std::pair{&arguments.json, "--json"}, {&arguments.svg, "--svg"}}) {
-    if (path->empty()) continue;
-    if (auto expected = outputs.expect(*path, option); !expected) return expected;
-  }
-  return {};
+  if (auto fits = expect_report(arguments.json, outputs); !fits) return fits;
+  return expect_report(arguments.svg, outputs, "--svg");
 }
 
 }  // namespace

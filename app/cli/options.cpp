@@ -230,8 +230,16 @@ std::string accuracy_note(const std::string& json, const Outputs& outputs, bool 
   return "accuracy: " + to_text(line);
 }
 
-Result<void> expect_report(const std::string& json, Outputs& outputs) {
-  return json.empty() ? Result<void>() : outputs.expect(json, "--json");
+Result<void> expect_report(const std::string& path, Outputs& outputs, const std::string& option) {
+  return path.empty() ? Result<void>() : outputs.expect(path, option);
+}
+
+Result<void> expect_files(const std::vector<std::string>& paths, const std::string& json,
+                          Outputs& outputs) {
+  for (const std::string& path : paths) {
+    if (auto expected = outputs.expect(path, "--output"); !expected) return expected;
+  }
+  return expect_report(json, outputs);
 }
 
 Result<CommandOutput> finish_command(CommandOutput out, Outputs& outputs, const std::string& path,

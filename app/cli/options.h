@@ -126,7 +126,11 @@ std::string accuracy_note(const std::string& json, const Outputs& outputs, bool 
                           const AccuracyReport& report, const Warning& line);
 
 /// Where the report of a command goes; empty: there is none. Errors: those of Outputs::expect().
-Result<void> expect_report(const std::string& json, Outputs& outputs);
+Result<void> expect_report(const std::string& path, Outputs& outputs,
+                           const std::string& option = "--json");
+/// The same, and before it where all outputs go.
+Result<void> expect_files(const std::vector<std::string>& paths, const std::string& json,
+                          Outputs& outputs);
 
 /// How a command ends: its report goes to `path`, unless that is empty, files take their places,
 /// and the table is printed where no output goes to standard output. Errors: those of the files.
