@@ -64,14 +64,11 @@ geotherm_status geotherm_centres(const geotherm_model* model, const geotherm_sou
                                  const geotherm_array* weights, const char* kind,
                                  const char* method, const geotherm_watch* watch,
                                  geotherm_answer** centres) {
-  return guarded([&]() -> Result<void> {
-    const auto object = object_of<const HeldModel>(model, "model");
-    if (!object) return object.error();
-    if (auto there = require(centres, "centres"); !there) return there;
-    if (auto surface = app::refuse_space(**object, "centres are"); !surface) return surface;
+  auto fill = [&](const HeldModel& held, const Progress& progress, Answer& made) -> Result<void> {
+    if (auto surface = app::refuse_space(held, "centres are"); !surface) return surface;
     const auto options = centre_options(kind, method);
     if (!options) return options.error();
-    const auto of = points_in_order(points, **object);
+    const auto of = points_in_order(points, held);
     if (!of) return of.error();
     std::vector<double> given;
     if (weights != nullptr) {
@@ -79,9 +76,8 @@ geotherm_status geotherm_centres(const geotherm_model* model, const geotherm_sou
       if (!numbers) return numbers.error();
       given = *std::move(numbers);
     }
-    const Watched watched(watch);
-    const TriangleMesh& mesh = *(*object)->mesh;
-    auto found = find_centres((*object)->mesh, *of, given, *options, watched.progress());
+    const TriangleMesh& mesh = *held.mesh;
+    auto found = find_centres(held.mesh, *of, given, *options, progress);
     if (!found) return found.error();
     std::vector<SurfacePoint> at;
     std::vector<double> energies, residuals, distances;
@@ -93,46 +89,40 @@ geotherm_status geotherm_centres(const geotherm_model* model, const geotherm_sou
       converged.push_back(centre.converged ? 1 : 0);
       distances.insert(distances.end(), centre.distances.begin(), centre.distances.end());
     }
-    auto made = std::make_shared<Answer>();
-    keep_points(*made, mesh, at);
-    keep(*made, "energies", std::move(energies));
-    keep(*made, "residuals", std::move(residuals));
-    keep(*made, "converged", std::move(converged));
-    keep(*made, "distances", std::move(distances), std::ssize(*of));
-    made->warnings = std::move(found->warnings);
-    hand_out_answer(std::move(made), centres);
+    keep_points(made, mesh, at);
+    keep(made, "energies", std::move(energies));
+    keep(made, "residuals", std::move(residuals));
+    keep(made, "converged", std::move(converged));
+    keep(made, "distances", std::move(distances), std::ssize(*of));
+    made.warnings = std::move(found->warnings);
     return {};
-  });
+  };
+  return answering<const HeldModel>(model, "model", centres, "centres", watch, fill);
 }
 
 geotherm_status geotherm_relax(const geotherm_solver* solver, const geotherm_sources* points,
                                int64_t steps, const geotherm_watch* watch,
                                geotherm_answer** relaxed) {
-  return guarded([&]() -> Result<void> {
-    const auto object = object_of<const Solver>(solver, "solver");
-    if (!object) return object.error();
-    if (auto there = require(relaxed, "relaxed"); !there) return there;
-    const app::Model& model = (*object)->model();
+  auto fill = [&](const Solver& held, const Progress& progress, Answer& made) -> Result<void> {
+    const app::Model& model = held.model();
     if (auto surface = app::refuse_space(model, "samples are"); !surface) return surface;
     const auto begin = points_in_order(points, model);
     if (!begin) return begin.error();
     if (steps < 0 || steps > std::numeric_limits<int>::max()) {
       return bad_argument("steps is " + std::to_string(steps), {"give 0 or more"});
     }
-    const Watched watched(watch);
-    const auto method = method_with_labels(**object, part_of(watched.progress(), 0.0, 0.1));
+    const auto method = method_with_labels(held, part_of(progress, 0.0, 0.1));
     if (!method) return method.error();
     auto found = relax_points(**method, model.mesh, *begin, static_cast<int>(steps),
-                              part_of(watched.progress(), 0.1, 1.0), (*object)->options.threads);
+                              part_of(progress, 0.1, 1.0), held.options.threads);
     if (!found) return found.error();
-    auto made = std::make_shared<Answer>();
-    keep_points(*made, *model.mesh, found->points);
-    keep(*made, "distances", std::move(found->distances));
-    keep(*made, "nearest_source", std::move(found->nearest));
-    keep(*made, "energies", std::move(found->energies));
-    keep(*made, "moves", std::move(found->moves));
-    keep(*made, "settled", std::vector<Index>{found->settled ? 1 : 0});
-    hand_out_answer(std::move(made), relaxed);
+    keep_points(made, *model.mesh, found->points);
+    keep(made, "distances", std::move(found->distances));
+    keep(made, "nearest_source", std::move(found->nearest));
+    keep(made, "energies", std::move(found->energies));
+    keep(made, "moves", std::move(found->moves));
+    keep(made, "settled", std::vector<Index>{found->settled ? 1 : 0});
     return {};
-  });
+  };
+  return answering<const Solver>(solver, "solver", relaxed, "relaxed", watch, fill);
 }

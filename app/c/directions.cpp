@@ -10,29 +10,23 @@
 namespace geotherm::c {
 namespace {
 
-using app::Model;
-
 /// One point of a triangle mesh with what directions there need.
 struct DirectedPoint {
-  std::shared_ptr<const Model> model;
   SurfacePoint point;
   std::shared_ptr<const Directions> directions;
 };
 
-Result<DirectedPoint> directed_point(const geotherm_model* model, const geotherm_sources* point,
-                                     const void* out, const char* what, const Progress& progress) {
-  const auto object = object_of<const HeldModel>(model, "model");
-  if (!object) return object.error();
-  if (auto there = require(out, "the answer"); !there) return there.error();
-  if (auto surface = app::refuse_space(**object, what); !surface) return surface.error();
-  const auto points = points_in_order(point, **object);
+Result<DirectedPoint> directed_point(const HeldModel& model, const geotherm_sources* point,
+                                     const char* what, const Progress& progress) {
+  if (auto surface = app::refuse_space(model, what); !surface) return surface.error();
+  const auto points = points_in_order(point, model);
   if (!points) return points.error();
   if (points->size() != 1) {
     return bad_argument("point has " + std::to_string(points->size()) + " points", {"give one"});
   }
-  auto directions = (*object)->directions(progress);
+  auto directions = model.directions(progress);
   if (!directions) return directions.error();
-  return DirectedPoint{*object, points->front(), *std::move(directions)};
+  return DirectedPoint{points->front(), *std::move(directions)};
 }
 
 void add_frame(const TangentFrame& frame, std::vector<double>& out) {
@@ -80,24 +74,17 @@ Result<std::vector<SurfacePath>> curves_of(const geotherm_sources* sources, bool
 
 /// What transport and extend have in common.
 struct SpreadCall {
-  std::shared_ptr<const Model> model;
   std::vector<Index> vertices;
   std::vector<double> numbers;
   std::shared_ptr<const VectorHeat> heat;
 };
 
-Result<SpreadCall> spread_call(const geotherm_model* model, const geotherm_options* options,
+Result<SpreadCall> spread_call(const HeldModel& model, const geotherm_options* options,
                                const geotherm_array* vertices, const geotherm_array* numbers,
-                               std::int64_t columns, const char* name, const void* out,
-                               const Progress& progress) {
-  const auto object = object_of<const HeldModel>(model, "model");
-  if (!object) return object.error();
-  for (const auto& [pointer, called] : {std::pair<const void*, const char*>{vertices, "vertices"},
-                                        {numbers, name},
-                                        {out, "answer"}}) {
-    if (auto there = require(pointer, called); !there) return there.error();
-  }
-  if (auto surface = app::refuse_space(**object, "carried vectors and values are"); !surface) {
+                               std::int64_t columns, const char* name, const Progress& progress) {
+  if (auto there = require(vertices, "vertices"); !there) return there.error();
+  if (auto there = require(numbers, name); !there) return there.error();
+  if (auto surface = app::refuse_space(model, "carried vectors and values are"); !surface) {
     return surface.error();
   }
   const auto spread = spread_options(options);
@@ -111,9 +98,9 @@ Result<SpreadCall> spread_call(const geotherm_model* model, const geotherm_optio
                         std::to_string(std::ssize(*values) / columns) + " rows for " +
                         std::to_string(at->size()) + " vertices");
   }
-  auto heat = (*object)->vector_heat(*spread, part_of(progress, 0, 0.7));
+  auto heat = model.vector_heat(*spread, part_of(progress, 0, 0.7));
   if (!heat) return heat.error();
-  return SpreadCall{*object, *std::move(at), *std::move(values), *std::move(heat)};
+  return SpreadCall{*std::move(at), *std::move(values), *std::move(heat)};
 }
 
 }  // namespace
@@ -179,7 +166,7 @@ using namespace geotherm::c;  // NOLINT
 geotherm_status geotherm_log_map(const geotherm_model* model, const geotherm_sources* point,
                                  const char* method, double max_distance,
                                  const geotherm_watch* watch, geotherm_answer** map) {
-  return guarded([&]() -> Result<void> {
+  auto fill = [&](const HeldModel& held, const Progress& progress, Answer& made) -> Result<void> {
     LogMapOptions options;
     if (method != nullptr) {
       const auto kind = parse<MethodKind>(method);
@@ -187,57 +174,48 @@ geotherm_status geotherm_log_map(const geotherm_model* model, const geotherm_sou
       options.method = *kind;
     }
     options.max_distance = max_distance;
-    const Watched watched(watch);
-    const auto from =
-        directed_point(model, point, map, "log maps are", part_of(watched.progress(), 0.0, 0.2));
+    const auto from = directed_point(held, point, "log maps are", part_of(progress, 0.0, 0.2));
     if (!from) return from.error();
-    auto found =
-        from->directions->log_map(from->point, options, part_of(watched.progress(), 0.2, 1.0));
+    auto found = from->directions->log_map(from->point, options, part_of(progress, 0.2, 1.0));
     if (!found) return found.error();
-    auto made = std::make_shared<Answer>();
     std::vector<double> frame;
     add_frame(found->frame, frame);
-    keep(*made, "frame", std::move(frame), 9);
-    keep(*made, "distances", std::move(found->distances));
-    keep(*made, "directions", std::move(found->directions));
-    made->warnings = std::move(found->warnings);
-    hand_out_answer(std::move(made), map);
+    keep(made, "frame", std::move(frame), 9);
+    keep(made, "distances", std::move(found->distances));
+    keep(made, "directions", std::move(found->directions));
+    made.warnings = std::move(found->warnings);
     return {};
-  });
+  };
+  return answering<const HeldModel>(model, "model", map, "the answer", watch, fill);
 }
 
 geotherm_status geotherm_trace(const geotherm_model* model, const geotherm_sources* point,
                                double direction, double length, const geotherm_watch* watch,
                                geotherm_answer** line) {
-  return guarded([&]() -> Result<void> {
-    const Watched watched(watch);
-    const auto from =
-        directed_point(model, point, line, "straightest lines are", watched.progress());
+  auto fill = [&](const HeldModel& held, const Progress& progress, Answer& made) -> Result<void> {
+    const auto from = directed_point(held, point, "straightest lines are", progress);
     if (!from) return from.error();
     auto found = from->directions->trace(from->point, direction, length);
     if (!found) return found.error();
-    auto made = std::make_shared<Answer>();
-    made->texts = {{"end", to_text(found->end)}};
-    made->lines = Lines{from->model->mesh, {{0, std::move(found->path)}}, false};
-    keep_lines(*made);
-    hand_out_answer(std::move(made), line);
+    made.texts = {{"end", to_text(found->end)}};
+    made.lines = Lines{held.mesh, {{0, std::move(found->path)}}, false};
+    keep_lines(made);
     return {};
-  });
+  };
+  return answering<const HeldModel>(model, "model", line, "the answer", watch, fill);
 }
 
 geotherm_status geotherm_transport(const geotherm_model* model, const geotherm_options* options,
                                    const geotherm_array* vertices, const geotherm_array* vectors,
                                    const geotherm_watch* watch, geotherm_answer** answer) {
-  return guarded([&]() -> Result<void> {
-    const Watched watched(watch);
-    const auto asked =
-        spread_call(model, options, vertices, vectors, 2, "vectors", answer, watched.progress());
+  auto fill = [&](const HeldModel& held, const Progress& progress, Answer& made) -> Result<void> {
+    const auto asked = spread_call(held, options, vertices, vectors, 2, "vectors", progress);
     if (!asked) return asked.error();
     std::vector<TangentVector> given;
     for (std::size_t i = 0; i < asked->vertices.size(); ++i) {
       given.push_back({asked->vertices[i], asked->numbers[2 * i], asked->numbers[2 * i + 1]});
     }
-    auto found = asked->heat->transport(given, part_of(watched.progress(), 0.7, 1.0));
+    auto found = asked->heat->transport(given, part_of(progress, 0.7, 1.0));
     if (!found) return found.error();
     const auto tangents = asked->heat->frames();
     if (!tangents) return tangents.error();
@@ -245,33 +223,28 @@ geotherm_status geotherm_transport(const geotherm_model* model, const geotherm_o
     for (const Vec3& v : found->vectors) space.insert(space.end(), v.begin(), v.end());
     for (const auto& v : found->components) components.insert(components.end(), v.begin(), v.end());
     for (const TangentFrame& frame : *tangents) add_frame(frame, frames);
-    auto made = std::make_shared<Answer>();
-    keep(*made, "vectors", std::move(space), 3);
-    keep(*made, "components", std::move(components), 2);
-    keep(*made, "frames", std::move(frames), 9);
-    made->warnings = std::move(found->warnings);
-    hand_out_answer(std::move(made), answer);
+    keep(made, "vectors", std::move(space), 3);
+    keep(made, "components", std::move(components), 2);
+    keep(made, "frames", std::move(frames), 9);
+    made.warnings = std::move(found->warnings);
     return {};
-  });
+  };
+  return answering<const HeldModel>(model, "model", answer, "answer", watch, fill);
 }
 
 geotherm_status geotherm_extend(const geotherm_model* model, const geotherm_options* options,
                                 const geotherm_array* vertices, const geotherm_array* values,
                                 const geotherm_watch* watch, geotherm_answer** answer) {
-  return guarded([&]() -> Result<void> {
-    const Watched watched(watch);
-    const auto asked =
-        spread_call(model, options, vertices, values, 1, "values", answer, watched.progress());
+  auto fill = [&](const HeldModel& held, const Progress& progress, Answer& made) -> Result<void> {
+    const auto asked = spread_call(held, options, vertices, values, 1, "values", progress);
     if (!asked) return asked.error();
-    auto found =
-        asked->heat->extend(asked->vertices, asked->numbers, part_of(watched.progress(), 0.7, 1.0));
+    auto found = asked->heat->extend(asked->vertices, asked->numbers, part_of(progress, 0.7, 1.0));
     if (!found) return found.error();
-    auto made = std::make_shared<Answer>();
-    keep(*made, "values", std::move(found->values));
-    made->warnings = std::move(found->warnings);
-    hand_out_answer(std::move(made), answer);
+    keep(made, "values", std::move(found->values));
+    made.warnings = std::move(found->warnings);
     return {};
-  });
+  };
+  return answering<const HeldModel>(model, "model", answer, "answer", watch, fill);
 }
 
 geotherm_status geotherm_signed_distance(const geotherm_model* model,
@@ -279,30 +252,23 @@ geotherm_status geotherm_signed_distance(const geotherm_model* model,
                                          const geotherm_sources* curves, int closed,
                                          const char* rule, const geotherm_watch* watch,
                                          geotherm_answer** answer) {
-  return guarded([&]() -> Result<void> {
-    const auto object = object_of<const HeldModel>(model, "model");
-    if (!object) return object.error();
-    if (auto there = require(answer, "answer"); !there) return there;
-    if (auto surface = app::refuse_space(**object, "signed distances are"); !surface)
-      return surface;
+  auto fill = [&](const HeldModel& held, const Progress& progress, Answer& made) -> Result<void> {
+    if (auto surface = app::refuse_space(held, "signed distances are"); !surface) return surface;
     const auto side = rule == nullptr ? Result<SideRule>(SideRule::kAuto) : parse<SideRule>(rule);
     if (!side) return side.error();
     const auto spread = spread_options(options);
     if (!spread) return spread.error();
-    const Watched watched(watch);
-    const auto lines =
-        curves_of(curves, closed != 0, **object, part_of(watched.progress(), 0.0, 0.3));
+    const auto lines = curves_of(curves, closed != 0, held, part_of(progress, 0.0, 0.3));
     if (!lines) return lines.error();
     const SignedSetup setup = {
-        [&](const Progress& part) { return (*object)->directions(part); },
-        [&](const Progress& part) { return (*object)->vector_heat(*spread, part); }};
-    auto found = signed_distance(setup, *lines, *side, part_of(watched.progress(), 0.3, 1.0));
+        [&](const Progress& part) { return held.directions(part); },
+        [&](const Progress& part) { return held.vector_heat(*spread, part); }};
+    auto found = signed_distance(setup, *lines, *side, part_of(progress, 0.3, 1.0));
     if (!found) return found.error();
-    auto made = std::make_shared<Answer>();
-    keep(*made, "distances", std::move(found->distances));
-    made->texts = {{"rule", to_text(found->rule)}};
-    made->warnings = std::move(found->warnings);
-    hand_out_answer(std::move(made), answer);
+    keep(made, "distances", std::move(found->distances));
+    made.texts = {{"rule", to_text(found->rule)}};
+    made.warnings = std::move(found->warnings);
     return {};
-  });
+  };
+  return answering<const HeldModel>(model, "model", answer, "answer", watch, fill);
 }

@@ -175,6 +175,24 @@ class Watched {
   Progress progress_;
 };
 
+/// Runs what a function does that hands out an answer: `fill` gets the object of the handle, the
+/// progress and the answer, which it fills. `called`: what messages call `out`.
+template <class T, class Fill>
+geotherm_status answering(const void* handle, const char* argument, geotherm_answer** out,
+                          const char* called, const geotherm_watch* watch,
+                          const Fill& fill) noexcept {
+  return guarded([&]() -> Result<void> {
+    const auto object = object_of<T>(handle, argument);
+    if (!object) return object.error();
+    if (auto there = require(out, called); !there) return there;
+    const Watched watched(watch);
+    const auto made = std::make_shared<Answer>();
+    if (auto done = fill(**object, watched.progress(), *made); !done) return done;
+    hand_out(std::shared_ptr<const Answer>(made), out);
+    return {};
+  });
+}
+
 // arrays.cpp
 
 /// Numbers of any type. `columns`: as many as there must be. Errors: kBadInput, with the name.
@@ -216,8 +234,5 @@ void keep_lines(const Answer& answer);
 /// The points of all sources, in their order. Errors: kBadInput.
 Result<std::vector<SurfacePoint>> points_in_order(const geotherm_sources* sources,
                                                   const app::Model& model);
-inline void hand_out_answer(std::shared_ptr<Answer> made, geotherm_answer** answer) {
-  hand_out(std::shared_ptr<const Answer>(std::move(made)), answer);
-}
 
 }  // namespace geotherm::c

@@ -125,10 +125,7 @@ using namespace geotherm::c;  // NOLINT
 geotherm_status geotherm_path(const geotherm_solver* solver, const geotherm_sources* through,
                               const char* field, int closed, const geotherm_watch* watch,
                               geotherm_answer** lines) {
-  return guarded([&]() -> Result<void> {
-    const auto object = object_of<const Solver>(solver, "solver");
-    if (!object) return object.error();
-    if (auto there = require(lines, "lines"); !there) return there;
+  auto fill = [&](const Solver& held, const Progress& progress, Answer& made) -> Result<void> {
     const auto follows = field_of(field);
     if (!follows) return follows.error();
     const bool loose = closed == 2;
@@ -136,44 +133,38 @@ geotherm_status geotherm_path(const geotherm_solver* solver, const geotherm_sour
       return bad_argument("closed is " + std::to_string(closed),
                           {"give 0, 1 or, for a geodesic, 2"});
     }
-    const Model& model = (*object)->model();
+    const Model& model = held.model();
     if (auto surface = app::refuse_space(model, "paths are"); !surface) return surface;
     const auto points = points_in_order(through, model);
     if (!points) return points.error();
-    const Watched watched(watch);
-    auto lock = lock_of(**object, watched.progress());
+    auto lock = lock_of(held, progress);
     if (!lock) return lock.error();
-    const auto finder = finder_of(**object, *follows, part_of(watched.progress(), 0.0, 0.5));
+    const auto finder = finder_of(held, *follows, part_of(progress, 0.0, 0.5));
     lock->unlock();
     if (!finder) return finder.error();
     PathOptions options;
     options.field = *follows;
     options.closed = closed == 1;
-    auto found = (*finder)->find(*points, options, part_of(watched.progress(), 0.5, 0.9));
+    auto found = (*finder)->find(*points, options, part_of(progress, 0.5, 0.9));
     if (!found) return found.error();
     if (loose) {
-      auto shorter =
-          shorten((*finder)->surface(), found->path, false, part_of(watched.progress(), 0.9, 1.0));
+      auto shorter = shorten((*finder)->surface(), found->path, false, part_of(progress, 0.9, 1.0));
       if (!shorter) return shorter.error();
       found->path = *std::move(shorter);
     }
-    auto made = std::make_shared<Answer>();
-    made->warnings = std::move(found->warnings);
-    made->lines = Lines{model.mesh, {{0, std::move(found->path)}}, false};
-    keep_lines(*made);
-    hand_out_answer(std::move(made), lines);
+    made.warnings = std::move(found->warnings);
+    made.lines = Lines{model.mesh, {{0, std::move(found->path)}}, false};
+    keep_lines(made);
     return {};
-  });
+  };
+  return answering<const Solver>(solver, "solver", lines, "lines", watch, fill);
 }
 
 geotherm_status geotherm_paths(const geotherm_solver* solver, const geotherm_sources* from,
                                const geotherm_sources* to, const geotherm_watch* watch,
                                geotherm_answer** lines) {
-  return guarded([&]() -> Result<void> {
-    const auto object = object_of<const Solver>(solver, "solver");
-    if (!object) return object.error();
-    if (auto there = require(lines, "lines"); !there) return there;
-    const Model& model = (*object)->model();
+  auto fill = [&](const Solver& held, const Progress& progress, Answer& made) -> Result<void> {
+    const Model& model = held.model();
     if (auto surface = app::refuse_space(model, "paths are"); !surface) return surface;
     const auto begin = points_in_order(from, model), ends = points_in_order(to, model);
     if (!begin) return begin.error();
@@ -183,41 +174,34 @@ geotherm_status geotherm_paths(const geotherm_solver* solver, const geotherm_sou
                               std::to_string(ends->size()),
                           {"give one, and one or more"});
     }
-    const Watched watched(watch);
-    auto made = std::make_shared<Answer>();
     const auto led_by = [&](bool exact) -> Result<std::vector<Isoline>> {
       const auto prepared = [&]() -> Result<std::shared_ptr<const PathFinder>> {
-        const auto lock = lock_of(**object, watched.progress());
+        const auto lock = lock_of(held, progress);
         if (!lock) return lock.error();
-        const Progress part = part_of(watched.progress(), 0.0, 0.5);
-        return exact ? exact_finder_of(**object, part)
-                     : finder_of(**object, PathField::kGeodesic, part);
+        const Progress part = part_of(progress, 0.0, 0.5);
+        return exact ? exact_finder_of(held, part) : finder_of(held, PathField::kGeodesic, part);
       };
       const auto finder = prepared();
       if (!finder) return finder.error();
-      return tree_of(**finder, begin->front(), *ends, made->warnings,
-                     part_of(watched.progress(), 0.5, 1.0));
+      return tree_of(**finder, begin->front(), *ends, made.warnings, part_of(progress, 0.5, 1.0));
     };
-    const bool exact = !is_near_exact(**object) && app::exact_leads_tree(ends->size(), model);
+    const bool exact = !is_near_exact(held) && app::exact_leads_tree(ends->size(), model);
     auto found = led_by(exact);
     if (exact && !found && found.error().code == ErrorCode::kBudgetEnded) found = led_by(false);
     if (!found) return found.error();
-    made->lines = Lines{model.mesh, *std::move(found), false};
-    keep_lines(*made);
-    hand_out_answer(std::move(made), lines);
+    made.lines = Lines{model.mesh, *std::move(found), false};
+    keep_lines(made);
     return {};
-  });
+  };
+  return answering<const Solver>(solver, "solver", lines, "lines", watch, fill);
 }
 
 geotherm_status geotherm_isolines(const geotherm_model* model, const geotherm_array* values,
                                   const geotherm_array* levels, geotherm_answer** lines) {
-  return guarded([&]() -> Result<void> {
-    const auto object = object_of<const HeldModel>(model, "model");
-    if (!object) return object.error();
+  auto fill = [&](const HeldModel& held, const Progress&, Answer& made) -> Result<void> {
     if (auto there = require(values, "values"); !there) return there;
     if (auto there = require(levels, "levels"); !there) return there;
-    if (auto there = require(lines, "lines"); !there) return there;
-    const TriangleMesh& mesh = *(*object)->mesh;
+    const TriangleMesh& mesh = *held.mesh;
     const auto at_vertices = numbers_in(*values, 1, "values");
     if (!at_vertices) return at_vertices.error();
     if (std::ssize(*at_vertices) != mesh.vertex_count()) {
@@ -233,21 +217,17 @@ geotherm_status geotherm_isolines(const geotherm_model* model, const geotherm_ar
     }
     auto found = find_isolines(mesh, *at_vertices, *asked);
     if (!found) return found.error();
-    auto made = std::make_shared<Answer>();
-    made->lines = Lines{(*object)->mesh, *std::move(found), true};
-    keep_lines(*made);
-    hand_out_answer(std::move(made), lines);
+    made.lines = Lines{held.mesh, *std::move(found), true};
+    keep_lines(made);
     return {};
-  });
+  };
+  return answering<const HeldModel>(model, "model", lines, "lines", nullptr, fill);
 }
 
 geotherm_status geotherm_samples(const geotherm_solver* solver, int64_t count, int64_t first,
                                  const geotherm_watch* watch, geotherm_answer** samples) {
-  return guarded([&]() -> Result<void> {
-    const auto object = object_of<const Solver>(solver, "solver");
-    if (!object) return object.error();
-    if (auto there = require(samples, "samples"); !there) return there;
-    const Model& model = (*object)->model();
+  auto fill = [&](const Solver& held, const Progress& progress, Answer& made) -> Result<void> {
+    const Model& model = held.model();
     if (auto surface = app::refuse_space(model, "samples are"); !surface) return surface;
     const Index vertices = model.mesh->vertex_count();
     if (count < 1 || count > vertices) {
@@ -258,23 +238,21 @@ geotherm_status geotherm_samples(const geotherm_solver* solver, int64_t count, i
       return bad_argument("first: there is no vertex " + std::to_string(first),
                           {"vertices are 0 to " + std::to_string(vertices - 1)});
     }
-    const Watched watched(watch);
-    auto found = farthest_points(*(*object)->ready.method, *model.mesh, static_cast<Index>(count),
-                                 {static_cast<Index>(first)}, watched.progress());
+    auto found = farthest_points(*held.ready.method, *model.mesh, static_cast<Index>(count),
+                                 {static_cast<Index>(first)}, progress);
     if (!found) return found.error();
-    auto made = std::make_shared<Answer>();
     std::vector<Index> chosen;
     std::vector<double> radius;
     for (const FarthestSample& sample : found->samples) {
       chosen.push_back(sample.vertex);
       radius.push_back(sample.radius);
     }
-    keep(*made, "vertices", std::move(chosen));
-    keep(*made, "radius", std::move(radius));
-    keep(*made, "distances", std::move(found->distances));
-    keep(*made, "nearest_source", std::move(found->nearest));
-    made->warnings = std::move(found->first.warnings);
-    hand_out_answer(std::move(made), samples);
+    keep(made, "vertices", std::move(chosen));
+    keep(made, "radius", std::move(radius));
+    keep(made, "distances", std::move(found->distances));
+    keep(made, "nearest_source", std::move(found->nearest));
+    made.warnings = std::move(found->first.warnings);
     return {};
-  });
+  };
+  return answering<const Solver>(solver, "solver", samples, "samples", watch, fill);
 }

@@ -298,22 +298,17 @@ geotherm_status geotherm_distances(const geotherm_solver* solver, const geotherm
 geotherm_status geotherm_solve(const geotherm_solver* solver, const geotherm_sources* sources,
                                const char* wanted, const geotherm_watch* watch,
                                geotherm_answer** answer) {
-  return guarded([&]() -> Result<void> {
-    const auto object = object_of<const Solver>(solver, "solver");
-    if (!object) return object.error();
-    if (auto there = require(answer, "answer"); !there) return there;
-    const auto asked = wanted_by(**object, wanted == nullptr ? "" : wanted);
+  auto fill = [&](const Solver& held, const Progress& progress, Answer& made) -> Result<void> {
+    const auto asked = wanted_by(held, wanted == nullptr ? "" : wanted);
     if (!asked) return asked.error();
-    const auto placed = one_set(sources, (*object)->model());
+    const auto placed = one_set(sources, held.model());
     if (!placed) return placed.error();
-    const Watched watched(watch);
-    const auto lock = lock_of(**object, watched.progress());
+    const auto lock = lock_of(held, progress);
     if (!lock) return lock.error();
-    auto solved = (*object)->solver.solve((*object)->options, *placed, *asked, watched.progress());
+    auto solved = held.solver.solve(held.options, *placed, *asked, progress);
     if (!solved) return solved.error();
-    auto made = std::make_shared<Answer>();
-    made->solved = *std::move(solved);
-    hand_out(std::shared_ptr<const Answer>(std::move(made)), answer);
+    made.solved = *std::move(solved);
     return {};
-  });
+  };
+  return answering<const Solver>(solver, "solver", answer, "answer", watch, fill);
 }

@@ -8,6 +8,7 @@
 #include "app/c/handles.h"
 #include "app/session/sources.h"
 #include "app/session/wording.h"
+#include "app/text/text.h"
 
 namespace geotherm::c {
 namespace {
@@ -69,11 +70,7 @@ Result<app::SourceSpec> spec_of(const geotherm_source& point) {
 Result<std::vector<Source>> named_sources(const char* text) {
   std::vector<Source> out;
   if (text == nullptr) return out;
-  const std::string_view all(text);
-  for (std::size_t from = 0; from < all.size();) {
-    const std::size_t end = std::min(all.find('\n', from), all.size());
-    const std::string_view line = all.substr(from, end - from);
-    from = end + 1;
+  for (const std::string_view line : app::split(text, '\n')) {
     if (line.find_first_not_of(" \t\r") == std::string_view::npos) continue;
     auto spec = app::parse_source(line);
     if (!spec) return spec.error();

@@ -190,11 +190,9 @@ Result<std::size_t> jobs_of(const BatchArguments& arguments, const Ranks& ranks)
   if (arguments.jobs.empty()) {
     return ranks.alone() ? static_cast<std::size_t>(thread_count(0)) : std::size_t{1};
   }
-  const auto jobs = number_in<int>(arguments.jobs);
-  if (jobs && *jobs >= 1) return static_cast<std::size_t>(*jobs);
-  return Error{ErrorCode::kBadInput,
-               "--jobs: '" + one_line(arguments.jobs) + "' is no number of processes",
-               {"give a whole number from 1"}};
+  const auto jobs = whole_in("--jobs", arguments.jobs, "number of processes", 1);
+  if (!jobs) return jobs.error();
+  return static_cast<std::size_t>(*jobs);
 }
 
 /// What every model would be refused for. Errors: kBadInput, kNotAvailable.
@@ -235,10 +233,7 @@ void add_batch_options(CLI::App& command, BatchArguments& arguments) {
                                 "models solved at the same time, each in a process of its own; "
                                 "default: one a core, and one a rank under mpirun")
                     ->type_name("N"));
-  own.push_back(
-      command
-          .add_option("--json", arguments.json, "how many were done, as JSON; - is standard output")
-          ->type_name("FILE"));
+  own.push_back(add_json_option(command, arguments.json, "how many were done,"));
   add_quiet_option(command, arguments.quiet);
   own.push_back(command.get_option("--quiet"));
   add_source_options(command, arguments.solve.sources);

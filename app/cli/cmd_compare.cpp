@@ -63,12 +63,9 @@ Result<Plan> plan_of(const CompareArguments& arguments) {
   const MethodOptions& options = asked->options;
   if (auto chosen = choose_solvers(arguments, options, plan.task); !chosen) return chosen.error();
   plan.reading = asked->reading;
-  const auto queries = number_in<Index>(arguments.queries);
-  if (!queries || *queries < 1 || *queries > kMaxQueries) {
-    return Error{ErrorCode::kBadInput,
-                 "--queries: '" + one_line(arguments.queries) + "' is no number of queries",
-                 {"give 1 to " + std::to_string(kMaxQueries)}};
-  }
+  const auto queries =
+      whole_in("--queries", arguments.queries, "number of queries", 1, kMaxQueries);
+  if (!queries) return queries.error();
   plan.queries = *queries;
   auto sources = sources_of(arguments.sources);
   if (!sources) return sources.error();
@@ -84,13 +81,9 @@ Result<Plan> plan_of(const CompareArguments& arguments) {
 }
 
 Result<void> expect_outputs(const CompareArguments& arguments, Outputs& outputs) {
-  for (const auto& [path, option] : {std::pair{&arguments.json, "--json"},
-                                     {&arguments.csv, "--csv"},
-                                     {&arguments.html, "--html"}}) {
-    if (path->empty()) continue;
-    if (auto expected = outputs.expect(*path, option); !expected) return expected;
-  }
-  return {};
+  if (auto fits = expect_report(arguments.json, outputs); !fits) return fits;
+  if (auto fits = expect_report(arguments.csv, outputs, "--csv"); !fits) return fits;
+  return expect_report(arguments.html, outputs, "--html");
 }
 
 /// The sources that were named, the same for each query; or single vertices at random.
@@ -166,7 +159,7 @@ void add_compare_options(CLI::App& command, CompareArguments& arguments) {
       "queries a backend, default 10; iterative backends stop after about 5 s");
   add("--reference", arguments.reference, "NAME",
       "the backend from which differences are measured, default the first");
-  add("--json", arguments.json, "FILE", "every figure as JSON; - is standard output");
+  add_json_option(command, arguments.json);
   add("--csv", arguments.csv, "FILE", "the same as CSV");
   add("--html", arguments.html, "FILE", "table and chart as a page of its own");
   add_quiet_option(command, arguments.quiet);

@@ -117,13 +117,6 @@ Result<std::vector<Isoline>> map_grid(const TriangleMesh& mesh, const LogMap& ma
   return map_lines(mesh, columns[2].values, columns[3].values, axes, levels);
 }
 
-Result<double> number_of(const std::string& text, const char* option, const char* what) {
-  const auto number = number_in<double>(text);
-  if (number && std::isfinite(*number)) return *number;
-  return Error{ErrorCode::kBadInput,
-               std::string(option) + ": '" + one_line(text) + "' is no " + what};
-}
-
 }  // namespace
 
 void add_log_map_options(CLI::App& command, LogMapArguments& arguments) {
@@ -260,18 +253,14 @@ Result<std::vector<double>> directions_of(const TraceArguments& arguments,
                                           const TangentFrame& frame) {
   std::vector<double> out;
   for (const std::string& text : arguments.directions) {
-    const auto angle = number_of(text, "--direction", "angle in radians");
+    const auto angle = real_in("--direction", text, "angle in radians");
     if (!angle) return angle.error();
     out.push_back(*angle);
   }
   if (!arguments.fan.empty()) {
     constexpr Index kMax = 1000000;
-    const auto count = number_in<Index>(arguments.fan);
-    if (!count || *count < 1 || *count > kMax) {
-      return Error{ErrorCode::kBadInput,
-                   "--fan: '" + one_line(arguments.fan) + "' is no number of lines",
-                   {"give 1 to " + std::to_string(kMax)}};
-    }
+    const auto count = whole_in("--fan", arguments.fan, "number of lines", 1, kMax);
+    if (!count) return count.error();
     for (Index i = 0; i < *count; ++i) {
       out.push_back(frame.on_boundary ? frame.angle * (i + 0.5) / *count
                                       : 2 * std::numbers::pi * i / *count);
@@ -317,7 +306,7 @@ Result<CommandOutput> run_trace(const TraceArguments& arguments, const Progress&
   if (!asked) return asked.error();
   const auto source = single_point(arguments.from, "--from");
   if (!source) return source.error();
-  const auto length = number_of(arguments.length, "--length", "length");
+  const auto length = real_in("--length", arguments.length, "length");
   if (!length) return length.error();
   if (*length < 0) {
     return Error{ErrorCode::kBadInput,

@@ -5,7 +5,6 @@
 
 #include "app/cli/commands.h"
 #include "app/cli/options.h"
-#include "app/picture/picture_text.h"
 #include "app/session/model.h"
 #include "app/session/outputs.h"
 #include "app/session/wording.h"
@@ -27,20 +26,10 @@ constexpr int kMaxWaving = 10'000;
 
 double phase_of(int k, int frames) { return 2 * std::numbers::pi * k / frames; }
 
-/// `what`: "faces". Errors: kBadInput.
-Result<Index> count_between(const std::string& text, const std::string& option, Index least,
-                            Index most, const char* what) {
-  const auto count = count_in(text);
-  if (count && *count >= least && *count <= most) return static_cast<Index>(*count);
-  return Error{ErrorCode::kBadInput,
-               option + ": '" + one_line(text) + "' is no number of " + what,
-               {"give " + std::to_string(least) + " to " + std::to_string(most)}};
-}
-
 /// As asked for, else the model's usual number.
 Result<Index> faces_in(const GenerateArguments& arguments) {
   if (!arguments.faces.empty()) {
-    return count_between(arguments.faces, "--faces", kMinModelFaces, kMaxModelFaces, "faces");
+    return whole_in("--faces", arguments.faces, "number of faces", kMinModelFaces, kMaxModelFaces);
   }
   for (const BundledModel& model : bundled_models()) {
     if (model.name == arguments.name) return model.faces;
@@ -51,7 +40,7 @@ Result<Index> faces_in(const GenerateArguments& arguments) {
 Result<Index> tets_in(const GenerateArguments& arguments) {
   constexpr Index kUsual = 20'000;
   if (arguments.tets.empty()) return kUsual;
-  return count_between(arguments.tets, "--tets", kMinVolumeTets, kMaxVolumeTets, "tetrahedra");
+  return whole_in("--tets", arguments.tets, "number of tetrahedra", kMinVolumeTets, kMaxVolumeTets);
 }
 
 Result<CommandOutput> generate_volume_file(const GenerateArguments& arguments) {
@@ -122,8 +111,8 @@ Result<void> write_frame_files(const NumberedPath& paths, const TriangleMesh& me
 
 Result<CommandOutput> generate_frames(const GenerateArguments& arguments, Index faces,
                                       const Progress& progress) {
-  const auto frames = whole_between(arguments.frames, 1, kMaxWaving, "is no number of frames");
-  if (!frames) return about("--frames", frames.error());
+  const auto frames = whole_in("--frames", arguments.frames, "number of frames", 1, kMaxWaving);
+  if (!frames) return frames.error();
   const std::string& path = arguments.output;
   const bool array = io::file_extension(path) == ".npy";
   const auto numbered = NumberedPath::parse(path);

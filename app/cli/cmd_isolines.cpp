@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <CLI/CLI.hpp>
 
-#include <cmath>
+#include <limits>
 
 #include "app/cli/commands.h"
 #include "app/picture/picture_text.h"
@@ -49,21 +49,15 @@ Result<Levels> levels_in(const IsolinesArguments& arguments) {
     return levels;
   }
   if (!arguments.count.empty()) {
-    const auto count = number_in<int>(arguments.count);
-    if (!count || *count < 1 || *count > kMaxLevels) {
-      return Error{ErrorCode::kBadInput,
-                   "--count: '" + one_line(arguments.count) + "' is no number of levels",
-                   {"give 1 to " + grouped(kMaxLevels)}};
-    }
+    const auto count = whole_in("--count", arguments.count, "number of levels", 1, kMaxLevels);
+    if (!count) return count.error();
     levels.count = *count;
     return levels;
   }
-  const auto spacing = number_in<double>(arguments.spacing);
-  if (!spacing || !std::isfinite(*spacing) || !(*spacing > 0)) {
-    return Error{ErrorCode::kBadInput,
-                 "--spacing: '" + one_line(arguments.spacing) + "' is no distance between lines",
-                 {"give a number above 0, in model units"}};
-  }
+  const auto spacing =
+      real_in("--spacing", arguments.spacing, "distance between lines",
+              "give a number above 0, in model units", std::numeric_limits<double>::denorm_min());
+  if (!spacing) return spacing.error();
   levels.spacing = *spacing;
   return levels;
 }

@@ -25,8 +25,7 @@ Json cracks_json(const CrackReport& cracks) {
 
 void add_info_options(CLI::App& command, InfoArguments& arguments) {
   add_model_option(command, arguments.model, arguments.settings)->required();
-  command.add_option("--json", arguments.json, "the same as JSON; - is standard output")
-      ->type_name("FILE");
+  add_json_option(command, arguments.json, "the same");
   add_quiet_option(command, arguments.quiet);
   command.footer("Example:\n  geotherm info scan.stl --json scan.json");
 }
@@ -63,32 +62,22 @@ Result<CommandOutput> run_info(const InfoArguments& arguments, const Progress& p
                         [&] { return info_table(*model, mesh); });
 }
 
-namespace {
-
-void add_json_option(CLI::App& command, ListArguments& arguments) {
-  command.add_option("--json", arguments.json, "the same as JSON; - is standard output")
-      ->type_name("FILE");
+void add_list_options(CLI::App& command, ListArguments& arguments) {
+  add_json_option(command, arguments.json, "the same");
+  command.footer("Example:\n  geotherm " + command.get_name());
 }
 
-Result<CommandOutput> list(const ListArguments& arguments, const TextTable& table,
+namespace {
+
+Result<CommandOutput> list(const ListArguments& arguments, const std::string& table,
                            const Json& json) {
   Outputs outputs;
   if (auto fits = expect_report(arguments.json, outputs); !fits) return fits.error();
   return finish_command(
-      {}, outputs, arguments.json, [&] { return json; }, [&] { return table.text(); });
+      {}, outputs, arguments.json, [&] { return json; }, [&] { return table; });
 }
 
 }  // namespace
-
-void add_backends_options(CLI::App& command, ListArguments& arguments) {
-  add_json_option(command, arguments);
-  command.footer("Example:\n  geotherm backends");
-}
-
-void add_models_options(CLI::App& command, ListArguments& arguments) {
-  add_json_option(command, arguments);
-  command.footer("Example:\n  geotherm models");
-}
 
 Result<CommandOutput> run_backends(const ListArguments& arguments) {
   TextTable table({{"", TextTable::Align::kLeft}, {"", TextTable::Align::kLeft}});
@@ -99,7 +88,7 @@ Result<CommandOutput> run_backends(const ListArguments& arguments) {
     table.add_row({name, description});
     rows.push_back({{"name", name}, {"description", description}, {"default", rows.empty()}});
   }
-  return list(arguments, table, Json{{"backends", std::move(rows)}});
+  return list(arguments, table.text(), Json{{"backends", std::move(rows)}});
 }
 
 Result<CommandOutput> run_models(const ListArguments& arguments) {
@@ -113,7 +102,7 @@ Result<CommandOutput> run_models(const ListArguments& arguments) {
     table.add_row({name, grouped(model.faces) + " faces", description});
     rows.push_back({{"name", name}, {"faces", model.faces}, {"description", description}});
   }
-  return list(arguments, table, Json{{"models", std::move(rows)}});
+  return list(arguments, table.text(), Json{{"models", std::move(rows)}});
 }
 
 namespace {
@@ -162,15 +151,7 @@ Json devices_json(const std::vector<DrawingDevice>& devices) {
 
 }  // namespace
 
-void add_devices_options(CLI::App& command, DevicesArguments& arguments) {
-  command.add_option("--json", arguments.json, "the same as JSON; - is standard output")
-      ->type_name("FILE");
-  command.footer("Example:\n  geotherm devices");
-}
-
-Result<CommandOutput> run_devices(const DevicesArguments& arguments, Drawing& drawing) {
-  Outputs outputs;
-  if (auto fits = expect_report(arguments.json, outputs); !fits) return fits.error();
+Result<CommandOutput> run_devices(const ListArguments& arguments, Drawing& drawing) {
   const auto devices = drawing.devices();
   if (!devices) return devices.error();
   if (devices->empty()) {
@@ -179,10 +160,7 @@ Result<CommandOutput> run_devices(const DevicesArguments& arguments, Drawing& dr
         "there is no device that can draw",
         {"install a Vulkan driver (Debian: mesa-vulkan-drivers, which also draws in software)"}};
   }
-  CommandOutput out;
-  return finish_command(
-      std::move(out), outputs, arguments.json, [&] { return devices_json(*devices); },
-      [&] { return device_table(*devices); });
+  return list(arguments, device_table(*devices), devices_json(*devices));
 }
 
 }  // namespace geotherm::app

@@ -52,11 +52,6 @@ Result<void> check_each(const SolveArguments& arguments) {
 
 namespace {
 
-Result<void> expect_rows(const SolveArguments& arguments, Outputs& outputs) {
-  const auto expected = outputs.expect(arguments.outputs.front(), "--output");
-  return expected ? expect_report(arguments.json, outputs) : expected;
-}
-
 Json each_json(const ManySources& work, const ManyFigures& figures, const RowSums& sums,
                NpyType type, const RowsFile& file) {
   Json json = many_json(work, figures);
@@ -77,7 +72,8 @@ Result<CommandOutput> run_each(const SolveArguments& arguments, const Progress& 
   if (auto fits = check_each(arguments); !fits) return fits.error();
   const auto type = number_type(arguments);
   Outputs outputs;
-  auto work = begin_many(arguments, expect_rows(arguments, outputs), progress);
+  const auto expected = expect_files(arguments.outputs, arguments.json, outputs);
+  auto work = begin_many(arguments, expected, progress);
   if (!work) return work.error();
 
   const std::string& path = arguments.outputs.front();
@@ -159,13 +155,6 @@ Result<void> check_pairs(const SolveArguments& arguments) {
 }
 
 namespace {
-
-Result<void> expect_matrix(const SolveArguments& arguments, Outputs& outputs) {
-  for (const std::string& path : arguments.outputs) {
-    if (auto expected = outputs.expect(path, "--output"); !expected) return expected;
-  }
-  return expect_report(arguments.json, outputs);
-}
 
 /// Two at least. Errors: kBadInput.
 Result<std::vector<Index>> vertices_of_pairs(const EachSource& each) {
@@ -294,7 +283,8 @@ Result<CommandOutput> run_pairs(const SolveArguments& arguments, const Progress&
   if (auto fits = check_pairs(arguments); !fits) return fits.error();
   const auto type = number_type(arguments);
   Outputs outputs;
-  auto work = begin_many(arguments, expect_matrix(arguments, outputs), progress);
+  const auto expected = expect_files(arguments.outputs, arguments.json, outputs);
+  auto work = begin_many(arguments, expected, progress);
   if (!work) return work.error();
   PairMatrix pairs;
   auto vertices = vertices_of_pairs(work->sources);

@@ -104,8 +104,7 @@ void add_plan_options(CLI::App& command, PlanArguments& arguments) {
       ->type_name("K");
   command.add_option("--ranks", arguments.ranks, "processes that share them; default 1")
       ->type_name("N");
-  command.add_option("--json", arguments.json, "the same as JSON; - is standard output")
-      ->type_name("FILE");
+  add_json_option(command, arguments.json, "the same");
   command.footer(
       "Power laws through figures that were measured on two threads (docs/performance.md). Many "
       "sources are shared out over ranks that hold the whole mesh; with one source ranks share "

@@ -57,10 +57,7 @@ Result<void> check_output(const RenderArguments& arguments, const PictureSetting
 Result<void> expect_outputs(const RenderArguments& arguments, const PictureSettings& settings,
                             Outputs& outputs) {
   if (auto known = check_output(arguments, settings); !known) return known;
-  for (const std::string& path : picture_paths(arguments.output, settings)) {
-    if (auto expected = outputs.expect(path, "--output"); !expected) return expected;
-  }
-  return expect_report(arguments.json, outputs);
+  return expect_files(picture_paths(arguments.output, settings), arguments.json, outputs);
 }
 
 Result<std::vector<Source>> sources_for(const RenderArguments& arguments, View view) {
@@ -139,8 +136,7 @@ void add_render_options(CLI::App& command, RenderArguments& arguments) {
           "scene")
       ->type_name("FILE")
       ->required();
-  command.add_option("--json", arguments.json, "every figure as JSON; - is standard output")
-      ->type_name("FILE");
+  add_json_option(command, arguments.json);
   may_repeat(command.add_option(
                  "--path", arguments.targets,
                  "draws the path from the nearest source to this point (17, face:ID:b0:b1:b2, "
@@ -249,7 +245,6 @@ Result<CommandOutput> run_render(const RenderArguments& typed, Drawing& drawing,
   PictureFigures figures;
   figures.model_argument = arguments.model;
   figures.sources = typed_sources(arguments.sources);
-  figures.command = typed_command();
   figures.settings = *settings;
   figures.device = *std::move(device);
   figures.paths = picture_paths(arguments.output, *settings);

@@ -7,7 +7,6 @@
 #include "app/cli/render_work.h"
 #include "app/cli/scene_output.h"
 #include "app/picture/picture_scale.h"
-#include "app/picture/picture_text.h"
 #include "app/session/outputs.h"
 #include "app/session/wording.h"
 #include "app/text/text.h"
@@ -32,9 +31,7 @@ int suitable_columns(int models, const PictureSettings& settings) {
 Result<int> columns_of(const RenderArguments& arguments, const PictureSettings& settings) {
   const int models = 1 + static_cast<int>(arguments.more_models.size());
   if (arguments.columns.empty()) return suitable_columns(models, settings);
-  auto columns = whole_between(arguments.columns, 1, models, "is no number of columns");
-  if (!columns) return about("--columns", columns.error());
-  return columns;
+  return whole_in("--columns", arguments.columns, "number of columns", 1, models);
 }
 
 /// One scale for all: ends that hold those of each picture.
@@ -102,7 +99,6 @@ Result<CommandOutput> run_render_models(const RenderArguments& arguments, const 
     PictureFigures& figures = all.emplace_back();
     figures.model_argument = model;
     figures.sources = typed_sources(arguments.sources);
-    figures.command = typed_command();
     figures.settings = asked.settings;
     figures.device = device;
     figures.paths = picture_paths(arguments.output, asked.settings);
@@ -116,10 +112,10 @@ Result<CommandOutput> run_render_models(const RenderArguments& arguments, const 
       warnings = figures.solve->warnings;
     }
     for (Warning& warning : warnings) {
-      warning.message.insert(0, figures.model + ": ");
+      warning.message.insert(0, figures.model.name + ": ");
       out.warnings.push_back(std::move(warning));
     }
-    data->caption = figures.model;
+    data->caption = figures.model.name;
     cells.push_back(*std::move(data));
   }
   PictureSettings shared = asked.settings;

@@ -245,13 +245,9 @@ Result<CommandOutput> run_render_sequence(const RenderArguments& arguments,
   auto extent = extent_of(*sequence, part_of(progress, 0, kReadShare));
   if (!extent) return extent.error();
   PictureFigures pictures;
-  pictures.model = sequence->model.name;
+  pictures.model = sequence->model;
   pictures.model_argument = arguments.model;
-  pictures.vertices = sequence->model.mesh->vertex_count();
-  pictures.faces = sequence->model.mesh->face_count();
-  pictures.size = size_in_words(sequence->model);
   pictures.sources = typed_sources(arguments.sources);
-  pictures.command = typed_command();
   pictures.settings = asked.settings;
   pictures.device = *std::move(device);
   if (is_film(arguments.output)) pictures.paths = {arguments.output};

@@ -36,16 +36,6 @@ namespace geotherm::app {
 
 namespace {
 
-Result<Index> number_in_option(const std::string& text, const char* option, Index least,
-                               const char* what) {
-  const auto number = count_in(text);
-  constexpr Index kMax = std::numeric_limits<Index>::max();
-  if (number && *number >= least && *number <= kMax) return static_cast<Index>(*number);
-  return Error{ErrorCode::kBadInput,
-               std::string(option) + ": '" + one_line(text) + "' is no " + what,
-               {"give a whole number from " + std::to_string(least)}};
-}
-
 bool is_json(const std::string& path) { return io::file_extension(path) == ".json"; }
 
 Result<void> expect_outputs(const SampleArguments& arguments, Outputs& outputs) {
@@ -307,8 +297,7 @@ void add_sample_options(CLI::App& command, SampleArguments& arguments) {
                   "covered with it (relaxed: face, weights, position): .csv .npy, or - for CSV on "
                   "standard output; .txt is a source file of other commands")
       ->type_name("FILE");
-  command.add_option("--json", arguments.json, "every figure as JSON; - is standard output")
-      ->type_name("FILE");
+  add_json_option(command, arguments.json);
   add_check_options(command, arguments.check);
   add_quiet_option(command, arguments.quiet);
   add_setting_options(command, arguments.settings, names_of(SettingGroup::kMethod));
@@ -328,17 +317,17 @@ Result<CommandOutput> run_sample(const SampleArguments& arguments, const Progres
   const auto asked = settings_in(arguments.settings);
   if (!asked) return asked.error();
   const MethodOptions& options = asked->options;
-  const auto count = number_in_option(arguments.count, "--count", 1, "number of samples");
+  const auto count = whole_in("--count", arguments.count, "number of samples", 1);
   if (!count) return count.error();
   Index first = kNoIndex;
   if (!arguments.first.empty()) {
-    const auto vertex = number_in_option(arguments.first, "--first", 0, "vertex id");
+    const auto vertex = whole_in("--first", arguments.first, "vertex id", 0);
     if (!vertex) return vertex.error();
     first = *vertex;
   }
   int relax = 0;
   if (!arguments.relax.empty()) {
-    const auto steps = number_in_option(arguments.relax, "--relax", 1, "number of steps");
+    const auto steps = whole_in("--relax", arguments.relax, "number of steps", 1);
     if (!steps) return steps.error();
     relax = *steps;
   }

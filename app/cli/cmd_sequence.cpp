@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: MIT
 // `geotherm solve --sequence`: distances on a surface that moves.
 #include <filesystem>
+#include <functional>
 #include <limits>
 #include <memory>
 #include <optional>
 #include <utility>
+#include <vector>
 
 #include "app/cli/commands.h"
 #include "app/cli/many_work.h"
+#include "app/cli/rows_file.h"
 #include "app/cli/sequence_work.h"
 #include "app/session/outputs.h"
 #include "app/session/wording.h"
@@ -58,128 +61,83 @@ Result<void> expect_output(const SolveArguments& arguments, Outputs& outputs) {
                  "the type of numbers is that of a .npy file",
                  {"give -o FILE.npy, or leave --dtype and --float32 out"}};
   }
-  if (auto expected = outputs.expect(path, "--output"); !expected) return expected;
-  return expect_report(arguments.json, outputs);
+  return expect_files(arguments.outputs, arguments.json, outputs);
 }
 
 /// Takes the distances of frame after frame and makes files of them.
-class FrameSink {
- public:
-  virtual ~FrameSink() = default;
-  /// Null: the frame is bad.
-  virtual Result<void> take(std::int64_t k, const Answer* answer) = 0;
-  virtual Result<void> finish() = 0;
+struct FrameSink {
+  TakeAnswer take;
+  std::function<Result<void>()> finish;
+  std::string words, short_words;  ///< what is to be written
 };
 
 /// Rows of one array; those of bad frames are NaN.
-class RowSink final : public FrameSink {
- public:
-  RowSink(NpyRows rows, Outputs& outputs, std::string path, Index vertices)
-      : rows_(std::move(rows)),
-        outputs_(outputs),
-        path_(std::move(path)),
-        bad_(static_cast<std::size_t>(vertices), std::numeric_limits<double>::quiet_NaN()) {}
-
-  Result<void> take(std::int64_t, const Answer* answer) override {
-    auto written = rows_.append(answer ? answer->result.distances : bad_);
-    if (written) return written;
-    return with_hint(written.error(), {"make room there, or choose another place"});
-  }
-  Result<void> finish() override {
-    return outputs_.write(path_, [this] { return rows_.finish(); });
-  }
-
- private:
-  NpyRows rows_;
-  Outputs& outputs_;
-  std::string path_;
-  std::vector<double> bad_;
-};
-
-/// A file for each frame, and the list of them (a collection of ParaView), which comes last.
-class CollectionSink final : public FrameSink {
- public:
-  /// Errors: those of Outputs::expect() for a frame's file.
-  static Result<std::unique_ptr<FrameSink>> open(const std::string& path, const Frames& frames,
-                                                 Outputs& outputs) {
-    auto sink = std::unique_ptr<CollectionSink>(new CollectionSink(path, frames, outputs));
-    outputs.keep_together();
-    for (std::int64_t k = 0; k < frames.count(); ++k) {
-      if (auto expected = outputs.expect(sink->file_of(k), "--output"); !expected) {
-        return expected.error();
-      }
-    }
-    return std::unique_ptr<FrameSink>(std::move(sink));
-  }
-
-  Result<void> take(std::int64_t k, const Answer* answer) override {
-    if (!answer) return {};
-    const std::string file = file_of(k);
-    list_ += "<DataSet timestep=\"" + std::to_string(frames_.number(k)) + "\" part=\"0\" file=\"" +
-             escaped(std::filesystem::path(file).filename().string()) + "\"/>\n";
-    return outputs_.write(file, [&] {
-      return write_distances(outputs_.place_of(file), *answer->model.mesh,
-                             answer->result.distances);
-    });
-  }
-  Result<void> finish() override {
-    return outputs_.write(path_, [this] {
-      return write_file(outputs_.place_of(path_),
-                        "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" "
-                        "version=\"0.1\">\n<Collection>\n" +
-                            list_ + "</Collection>\n</VTKFile>\n");
-    });
-  }
-
- private:
-  CollectionSink(std::string path, const Frames& frames, Outputs& outputs)
-      : path_(std::move(path)), frames_(frames), outputs_(outputs) {}
-
-  /// NAME_0007.vtp beside NAME.pvd.
-  std::string file_of(std::int64_t k) const {
-    constexpr std::size_t kDigits = 4;
-    std::string digits = std::to_string(frames_.number(k));
-    if (digits.size() < kDigits) digits.insert(0, kDigits - digits.size(), '0');
-    const std::filesystem::path path(path_);
-    return (path.parent_path() / (path.stem().string() + "_" + digits + ".vtp")).string();
-  }
-
-  std::string path_;
-  Frames frames_;
-  Outputs& outputs_;
-  std::string list_;
-};
-
-std::string collection_in_words(std::int64_t frames) {
-  return "a .vtp file for each of " + counted(frames, "frame", "frames");
-}
-
-struct OpenSink {
-  std::unique_ptr<FrameSink> sink;
-  std::string words;  ///< what is to be written
-  std::string short_words;
-};
-
-Result<OpenSink> open_sink(const std::string& path, const Sequence& sequence, NpyType type,
+Result<FrameSink> row_sink(const std::string& path, const Sequence& sequence, NpyType type,
                            Outputs& outputs) {
   const std::int64_t frames = sequence.frames.count();
   const Index vertices = sequence.model.mesh->vertex_count();
-  if (is_collection(path)) {
-    auto sink = CollectionSink::open(path, sequence.frames, outputs);
-    if (!sink) return sink.error();
-    return OpenSink{*std::move(sink), collection_in_words(frames), "a .vtp file for each"};
-  }
   const auto rows = static_cast<std::uint64_t>(frames);
   const auto columns = static_cast<std::uint64_t>(vertices);
   const auto bytes = static_cast<double>(npy_bytes_of(rows, columns, type));
   if (auto fits = check_room(path, bytes); !fits) return fits.error();
   auto array = NpyRows::open(path, rows, columns, type);
   if (!array) return array.error();
-  return OpenSink{std::make_unique<RowSink>(*std::move(array), outputs, path, vertices),
-                  counted(frames, "frame", "frames") + " x " +
-                      counted(vertices, "vertex", "vertices") + ", " + to_text(type) + ", " +
-                      bytes_in_words(bytes),
-                  "a file of " + bytes_in_words(bytes)};
+  const auto file = std::make_shared<NpyRows>(*std::move(array));
+  const std::vector<double> bad(columns, std::numeric_limits<double>::quiet_NaN());
+  return FrameSink{
+      [file, bad](std::int64_t, const Answer* answer) -> Result<void> {
+        auto written = file->append(answer ? answer->result.distances : bad);
+        return written ? written : about_file(written.error());
+      },
+      [file, path, &outputs] { return outputs.write(path, [&] { return file->finish(); }); },
+      counted(frames, "frame", "frames") + " x " + counted(vertices, "vertex", "vertices") + ", " +
+          to_text(type) + ", " + bytes_in_words(bytes),
+      "a file of " + bytes_in_words(bytes)};
+}
+
+/// NAME_0007.vtp beside NAME.pvd.
+std::string file_of_frame(const std::string& collection, std::int64_t number) {
+  constexpr std::size_t kDigits = 4;
+  std::string digits = std::to_string(number);
+  if (digits.size() < kDigits) digits.insert(0, kDigits - digits.size(), '0');
+  const std::filesystem::path path(collection);
+  return (path.parent_path() / (path.stem().string() + "_" + digits + ".vtp")).string();
+}
+
+std::string collection_in_words(std::int64_t frames) {
+  return "a .vtp file for each of " + counted(frames, "frame", "frames");
+}
+
+/// A file for each frame, and the list of them (a collection of ParaView), which comes last.
+/// Errors: those of Outputs::expect() for a frame's file.
+Result<FrameSink> collection_sink(const std::string& path, const Frames& frames, Outputs& outputs) {
+  outputs.keep_together();
+  for (std::int64_t k = 0; k < frames.count(); ++k) {
+    const auto expected = outputs.expect(file_of_frame(path, frames.number(k)), "--output");
+    if (!expected) return expected.error();
+  }
+  const auto list = std::make_shared<std::string>();
+  FrameSink sink;
+  sink.words = collection_in_words(frames.count());
+  sink.short_words = "a .vtp file for each";
+  sink.take = [=, &frames, &outputs](std::int64_t k, const Answer* answer) -> Result<void> {
+    if (!answer) return {};
+    const std::string file = file_of_frame(path, frames.number(k));
+    *list += "<DataSet timestep=\"" + std::to_string(frames.number(k)) + "\" part=\"0\" file=\"" +
+             escaped(std::filesystem::path(file).filename().string()) + "\"/>\n";
+    return outputs.write(file, [&] {
+      return write_distances(outputs.place_of(file), *answer->model.mesh, answer->result.distances);
+    });
+  };
+  sink.finish = [=, &outputs] {
+    return outputs.write(path, [&] {
+      return write_file(outputs.place_of(path),
+                        "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" "
+                        "version=\"0.1\">\n<Collection>\n" +
+                            *list + "</Collection>\n</VTKFile>\n");
+    });
+  };
+  return sink;
 }
 
 std::string sequence_table(const Sequence& sequence, const SequenceFigures& figures,
@@ -219,21 +177,22 @@ Result<CommandOutput> run_sequence(const SolveArguments& arguments, const Progre
       begin_sequence(arguments.model, arguments.sequence, *asked, *named, *check, progress);
   if (!sequence) return sequence.error();
   const std::string& path = arguments.outputs.front();
-  auto open = open_sink(path, *sequence, *type, outputs);
-  if (!open) return open.error();
+  auto sink = is_collection(path) ? collection_sink(path, sequence->frames, outputs)
+                                  : row_sink(path, *sequence, *type, outputs);
+  if (!sink) return sink.error();
   RowSums sums;
   auto figures = solve_frames(
       *sequence,
       [&](std::int64_t k, const Answer* answer) {
         if (answer) sums.add(answer->result.distances);
-        return open->sink->take(k, answer);
+        return sink->take(k, answer);
       },
-      open->short_words, progress, announce);
+      sink->short_words, progress, announce);
   if (!figures) {
     outputs.remove_written();
     return figures.error();
   }
-  if (auto written = open->sink->finish(); !written) return written.error();
+  if (auto written = sink->finish(); !written) return written.error();
 
   note_unused_settings(arguments.settings, asked->options, figures->warnings);
   CommandOutput out{"", figures->warnings, {}};
@@ -252,7 +211,7 @@ Result<CommandOutput> run_sequence(const SolveArguments& arguments, const Progre
   return finish_command(std::move(out), outputs, arguments.json, report, [&] {
     const std::int64_t solved = sequence->frames.count() - std::ssize(figures->bad);
     return sequence_table(*sequence, *figures, sums, path,
-                          is_collection(path) ? collection_in_words(solved) : open->words);
+                          is_collection(path) ? collection_in_words(solved) : sink->words);
   });
 }
 

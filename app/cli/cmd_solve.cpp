@@ -53,13 +53,6 @@ Result<void> check_extensions(const SolveArguments& arguments) {
   return {};
 }
 
-Result<void> expect_outputs(const SolveArguments& arguments, Outputs& outputs) {
-  for (const std::string& path : arguments.outputs) {
-    if (auto expected = outputs.expect(path, "--output"); !expected) return expected;
-  }
-  return expect_report(arguments.json, outputs);
-}
-
 Result<void> check_outputs_of(const Model& model, const std::vector<std::string>& paths) {
   for (const std::string& path : paths) {
     if (auto fits = check_answer_path(model, path); !fits) return about("--output", fits.error());
@@ -128,8 +121,7 @@ void add_solve_options(CLI::App& command, SolveArguments& arguments) {
                  "--sequence .npy "
                  "and .pvd"),
              "FILE");
-  command.add_option("--json", arguments.json, "every figure as JSON; - is standard output")
-      ->type_name("FILE");
+  add_json_option(command, arguments.json);
   command
       .add_flag("--check", arguments.check.check,
                 "holds the distances against the most accurate method that fits, and looks for a "
@@ -270,7 +262,8 @@ Result<CommandOutput> run_solve(const SolveArguments& arguments, const Drawing& 
   if (!asked) return asked.error();
   const MethodOptions& options = asked->options;
   Outputs outputs;
-  if (auto expected = expect_outputs(arguments, outputs); !expected) return expected.error();
+  const auto expected = expect_files(arguments.outputs, arguments.json, outputs);
+  if (!expected) return expected.error();
   const auto wanted = wanted_fields(arguments.fields, options.method, arguments.outputs);
   if (!wanted) return wanted.error();
   if (auto fits = check_bake(arguments, drawing); !fits) return fits.error();

@@ -82,25 +82,18 @@ Result<std::vector<AtVertex>> given_in(const SpreadArguments& arguments, const s
   std::vector<AtVertex> out;
   for (const auto& [text, where, blame] : texts) {
     AtVertex& given = out.emplace_back();
-    std::size_t from = 0, parts = 0;
-    bool fine = true;
-    for (; from <= text.size(); ++parts) {
-      const std::size_t colon = std::min(text.find(':', from), text.size());
-      const std::string word = text.substr(from, colon - from);
-      from = colon + 1;
-      if (parts == 0) {
-        const auto vertex = number_in<Index>(word);
-        fine = fine && vertex && *vertex >= 0;
-        given.vertex = vertex.value_or(kNoIndex);
-      } else {
-        const auto number = number_in<double>(word);
-        fine = fine && number && std::isfinite(*number);
-        given.numbers.push_back(number.value_or(0));
-      }
+    const std::vector<std::string_view> parts = split(text, ':');
+    const auto vertex = number_in<Index>(parts.front());
+    given.vertex = vertex.value_or(kNoIndex);
+    bool fine = vertex && *vertex >= 0 && parts.size() == numbers + 1;
+    for (std::size_t k = 1; k < parts.size(); ++k) {
+      const auto number = number_in<double>(parts[k]);
+      fine = fine && number && std::isfinite(*number);
+      given.numbers.push_back(number.value_or(0));
     }
     const std::string named = where == option ? option + ' ' + one_line(text) : where;
     given.source = {VertexList{{given.vertex}}, named, blame};
-    if (fine && parts == numbers + 1) continue;
+    if (fine) continue;
     return Error{blame,
                  where + ": '" + one_line(text) + "' is no " + (numbers == 2 ? "vector" : "value") +
                      " at a vertex",

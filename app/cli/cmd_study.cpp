@@ -125,12 +125,10 @@ constexpr int kMaxFactors = 200;
 
 /// LEAST:MOST:COUNT.
 Result<std::vector<double>> parse_factors(const std::string& text) {
-  const std::size_t first = text.find(':');
-  const std::size_t second = first == std::string::npos ? first : text.find(':', first + 1);
-  if (second != std::string::npos) {
-    const auto least = number_in<double>(text.substr(0, first));
-    const auto most = number_in<double>(text.substr(first + 1, second - first - 1));
-    const auto count = number_in<int>(text.substr(second + 1));
+  const std::vector<std::string_view> parts = split(text, ':');
+  if (parts.size() == 3) {
+    const auto least = number_in<double>(parts[0]), most = number_in<double>(parts[1]);
+    const auto count = number_in<int>(parts[2]);
     if (least && most && count && *least >= kMinFactor && *most <= kMaxFactor && *least < *most &&
         *count >= 2 && *count <= kMaxFactors) {
       return study_factors(*least, *most, *count);
@@ -163,12 +161,8 @@ Result<void> expect_outputs(const StudyArguments& arguments, Outputs& outputs) {
     return Error{ErrorCode::kBadInput,
                  "--svg: " + one_line(arguments.svg) + ": the plot is written as .svg"};
   }
-  for (const auto& [path, option] :
-       {std::pair{&arguments.json, "--json"}, {&arguments.svg, "--svg"}}) {
-    if (path->empty()) continue;
-    if (auto expected = outputs.expect(*path, option); !expected) return expected;
-  }
-  return {};
+  if (auto fits = expect_report(arguments.json, outputs); !fits) return fits;
+  return expect_report(arguments.svg, outputs, "--svg");
 }
 
 }  // namespace
@@ -179,8 +173,7 @@ void add_study_options(CLI::App& command, StudyArguments& arguments) {
       .add_option("--factors", arguments.factors,
                   "time factors m that are tried, the same ratio apart, default 0.1:100:13")
       ->type_name("LEAST:MOST:COUNT");
-  command.add_option("--json", arguments.json, "every figure as JSON; - is standard output")
-      ->type_name("FILE");
+  add_json_option(command, arguments.json);
   command.add_option("--svg", arguments.svg, "the error as curves, .svg; - is standard output")
       ->type_name("FILE");
   add_quiet_option(command, arguments.quiet);

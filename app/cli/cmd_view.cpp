@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <CLI/CLI.hpp>
 
+#include <algorithm>
 #include <utility>
 
 #include "app/cli/commands.h"
@@ -26,16 +27,9 @@
 namespace geotherm::app {
 namespace {
 
-constexpr double kMinScale = 0.5;
-constexpr double kMaxScale = 4;
-
 Result<double> scale_in(const std::string& text) {
   if (text.empty()) return 0.0;
-  const auto scale = number_in<double>(text);
-  if (scale && *scale >= kMinScale && *scale <= kMaxScale) return *scale;
-  return Error{ErrorCode::kBadInput,
-               "'" + one_line(text) + "' is no scale of panels",
-               {"give 0.5 to 4, such as 2"}};
+  return real_in("--scale", text, "scale of panels", "give 0.5 to 4, such as 2", 0.5, 4);
 }
 
 Result<std::vector<SourceSpec>> sources_in(const SourceArguments& arguments) {
@@ -133,7 +127,6 @@ Result<CommandOutput> run_headless(const ViewArguments& arguments,
   }
   DrawingDevice device;
   ViewPainter painter;
-  painter.command = typed_command();
   painter.device = [&device] { return device; };
   painter.draw = [&](const PictureData& data, const PictureSettings& settings, bool panels,
                      DrawAs as) -> Result<DrawnPicture> {
@@ -276,7 +269,7 @@ Result<CommandOutput> run_view(const ViewArguments& given, Drawing& drawing, Vie
   auto commands = commands_of(arguments, colour_maps);
   if (!commands) return commands.error();
   const auto scale = scale_in(arguments.scale);
-  if (!scale) return about("--scale", scale.error());
+  if (!scale) return scale.error();
   if (is_headless(arguments)) return run_headless(arguments, *commands, drawing, progress);
 
   // A window that opens to say that there is no such file helps nobody.
@@ -296,7 +289,6 @@ Result<CommandOutput> run_view(const ViewArguments& given, Drawing& drawing, Vie
   start.device = arguments.picture.device;
   start.scale = *scale;
   start.validation = arguments.validation;
-  start.command = typed_command();
   if (arguments.settings.has("size")) {
     const PictureSettings picture = settings_in(arguments.settings)->picture;
     start.width = picture.width;
@@ -312,11 +304,9 @@ PictureFigures figures_of(const Session& session, const PictureSettings& setting
   const Explored& explored = session.explored();
   const ViewerState& state = session.state();
   PictureFigures figures;
-  figures.model = explored.model->model.name;
+  figures.model = explored.model->model;
   figures.model_argument = state.model;
   for (const SourceSpec& source : explored.sources) figures.sources.push_back(to_text(source));
-  figures.vertices = explored.model->model.mesh->vertex_count();
-  figures.faces = explored.model->model.mesh->face_count();
   figures.settings = settings;
   if (const Answer* answer = shown_answer(explored, state.shown)) {
     figures.solve = *answer;
@@ -353,15 +343,11 @@ Result<void> save_view_picture(const command::SavePicture& save, const Session& 
       painter.draw(data, settings, save.panels, format ? DrawAs::kFigure : DrawAs::kPixels);
   if (!picture) return picture.error();
   PictureFigures figures = figures_of(session, settings);
-  figures.command = painter.command;
   figures.scale = picture_scale(data, settings);
   figures.device = painter.device();
   figures.paths = {save.path};
   std::vector<FileText> texts = picture_texts(figures, 0);
-  texts.push_back({"Description", data.caption});
-  std::erase_if(texts, [&](const FileText& text) {
-    return text.keyword == "Description" && text.text != data.caption;
-  });
+  std::ranges::find(texts, "Description", &FileText::keyword)->text = data.caption;
   const std::optional<int> dpi = said_dpi(figures.settings);
   auto bytes =
       format ? figure_bytes(*picture, *format, texts, dpi) : png_bytes(*picture, texts, dpi);

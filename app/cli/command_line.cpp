@@ -11,8 +11,11 @@
 #include <cstdio>
 #include <filesystem>
 #include <functional>
+#include <memory>
 #include <system_error>
 #include <thread>
+#include <type_traits>
+#include <utility>
 
 #include "app/cli/commands.h"
 #include "app/session/model.h"
@@ -65,24 +68,6 @@ int print(const CommandOutput& output) {
 int finish(const Result<CommandOutput>& result) {
   if (result) return print(*result);
   return fail(result.error());
-}
-
-template <class Arguments, class Run>
-int run_with_bar(const Arguments& arguments, Run&& run) {
-  ProgressBar bar(!arguments.quiet && error_is_terminal() && is_first_rank());
-  const Result<CommandOutput> result = run(arguments, bar.progress());
-  bar.clear();
-  return finish(result);
-}
-
-/// The same for a command that says more than its bar shows.
-template <class Arguments, class Run>
-int run_with_words(const Arguments& arguments, Run&& run) {
-  ProgressBar bar(!arguments.quiet && error_is_terminal() && is_first_rank());
-  const Result<CommandOutput> result = run(
-      arguments, bar.progress(), arguments.quiet || !is_first_rank() ? Announce() : bar.announce());
-  bar.clear();
-  return finish(result);
 }
 
 /// `geotherm MODEL` is `geotherm view MODEL`.
@@ -198,117 +183,105 @@ std::string help_of(const CLI::App& app) {
   return app.get_formatter()->make_help(&app, name, CLI::AppFormatMode::Normal);
 }
 
-/// What all sub-commands are given.
-struct AllArguments {
-  ViewArguments view;
-  SolveArguments solve;
-  BatchArguments batch;
-  PlanArguments plan;
-  InfoArguments info;
-  CompareArguments compare;
-  RenderArguments render;
-  PathArguments path;
-  LogMapArguments log_map;
-  TraceArguments trace;
-  CentreArguments centre;
-  SpreadArguments transport, extend;
-  SignedArguments signed_;
-  IsolinesArguments isolines;
-  SampleArguments sample;
-  StudyArguments study;
-  GenerateArguments generate;
-  DevicesArguments devices;
-  ListArguments backends, models;
-  std::string helped, shell;
-};
-
 struct Subcommand {
   std::string name, description;
   std::function<void(CLI::App& command)> add_options;
   std::function<int()> run;
 };
 
-std::vector<Subcommand> subcommands(AllArguments& a, CLI::App& root, Drawing& drawing,
-                                    ViewerWindow& window) {
-  const auto with_bar = [](auto& arguments, auto run) {
-    return [&arguments, run] { return run_with_bar(arguments, run); };
+/// `run` takes the arguments, and where it takes more the progress of a bar and, behind that, what
+/// is said beside the bar.
+template <class Arguments, class Run>
+Subcommand subcommand(std::string name, std::string description,
+                      void (*add)(CLI::App& command, Arguments& arguments), Run run) {
+  const auto given = std::make_shared<Arguments>();
+  const auto run_given = [given, run] {
+    if constexpr (std::is_invocable_v<Run, const Arguments&>) {
+      return finish(run(*given));
+    } else {
+      const bool speaks = !given->quiet && is_first_rank();
+      ProgressBar bar(speaks && error_is_terminal());
+      Result<CommandOutput> result = CommandOutput{};
+      if constexpr (std::is_invocable_v<Run, const Arguments&, const Progress&>) {
+        result = run(*given, bar.progress());
+      } else {
+        result = run(*given, bar.progress(), speaks ? bar.announce() : Announce());
+      }
+      bar.clear();
+      return finish(result);
+    }
   };
-  const auto with_words = [](auto& arguments, auto run) {
-    return [&arguments, run] { return run_with_words(arguments, run); };
-  };
-  const auto options = [](auto add, auto& arguments) {
-    return [add, &arguments](CLI::App& command) { add(command, arguments); };
-  };
-  const auto view = [&drawing, &window](const ViewArguments& arguments, const Progress& progress) {
+  return {std::move(name), std::move(description),
+          [given, add](CLI::App& command) { add(command, *given); }, run_given};
+}
+
+void add_help_options(CLI::App& command, std::string& name) {
+  command.add_option("COMMAND", name, "one of those of geotherm --help");
+}
+
+std::vector<Subcommand> subcommands(CLI::App& root, Drawing& drawing, ViewerWindow& window) {
+  const auto view = [&](const ViewArguments& arguments, const Progress& progress) {
     return run_view(arguments, drawing, window, progress);
   };
-  const auto solve = [&drawing](const SolveArguments& arguments, const Progress& progress,
-                                const Announce& announce) {
+  const auto solve = [&](const SolveArguments& arguments, const Progress& progress,
+                         const Announce& announce) {
     return run_solve(arguments, drawing, progress, announce);
   };
-  const auto render = [&drawing](const RenderArguments& arguments, const Progress& progress) {
+  const auto render = [&](const RenderArguments& arguments, const Progress& progress) {
     return run_render(arguments, drawing, progress);
   };
+  const auto devices = [&](const ListArguments& arguments) {
+    return run_devices(arguments, drawing);
+  };
+  const auto completion = [&](const std::string& shell) { return run_completion(shell, root); };
+  const auto help = [&](const std::string& name) -> Result<CommandOutput> {
+    const CLI::App* const command = name.empty() ? &root : find_command(root, name);
+    if (command != nullptr) return CommandOutput{help_of(*command), {}, {}};
+    return Error{ErrorCode::kBadInput,
+                 "there is no command '" + name + "'",
+                 {known_words(name, command_names(root))}};
+  };
   return {
-      {"view", "A window to explore a model in; geotherm MODEL does the same.",
-       options(add_view_options, a.view), with_bar(a.view, view)},
-      {"solve", "Distance from a source set to every vertex.", options(add_solve_options, a.solve),
-       with_words(a.solve, solve)},
-      {"batch", "Distances on many models, each in a process of its own; goes on where it ended.",
-       options(add_batch_options, a.batch), with_bar(a.batch, run_batch)},
-      {"plan", "Memory and time of a large solve, before it is started.",
-       options(add_plan_options, a.plan), [&a] { return finish(run_plan(a.plan)); }},
-      {"info", "What a model is, and what is wrong with it.", options(add_info_options, a.info),
-       with_bar(a.info, run_info)},
-      {"compare", "The same work through several backends, side by side.",
-       options(add_compare_options, a.compare), with_bar(a.compare, run_compare)},
-      {"render", "Pictures, without a display and without a window.",
-       options(add_render_options, a.render), with_bar(a.render, render)},
-      {"path", "Geodesic paths and streamlines.", options(add_path_options, a.path),
-       with_bar(a.path, run_path)},
-      {"logmap", "Where each vertex is seen from a point: start direction and distance.",
-       options(add_log_map_options, a.log_map), with_bar(a.log_map, run_log_map)},
-      {"trace", "Straightest lines from a point in given directions.",
-       options(add_trace_options, a.trace), with_bar(a.trace, run_trace)},
-      {"centre", "Where the distances to given points are least: their mean or median.",
-       options(add_centre_options, a.centre), with_bar(a.centre, run_centre)},
-      {"transport", "Tangent vectors carried over the surface without turning.",
-       options(add_transport_options, a.transport), with_bar(a.transport, run_transport)},
-      {"extend", "Values of some vertices carried to all.", options(add_extend_options, a.extend),
-       with_bar(a.extend, run_extend)},
-      {"signed", "Distance to curves, with the side.", options(add_signed_options, a.signed_),
-       with_bar(a.signed_, run_signed)},
-      {"isolines", "Lines of equal distance, closed or open.",
-       options(add_isolines_options, a.isolines), with_bar(a.isolines, run_isolines)},
-      {"sample", "Farthest-point samples, and the nearest of them to every vertex.",
-       options(add_sample_options, a.sample), with_words(a.sample, run_sample)},
-      {"study", "The error of the heat method over time factors, rules and modes.",
-       options(add_study_options, a.study), with_bar(a.study, run_study)},
-      {"generate", "Writes a bundled model.", options(add_generate_options, a.generate),
-       with_bar(a.generate, run_generate)},
-      {"backends", "The linear solvers of this build, the default first.",
-       options(add_backends_options, a.backends),
-       [&a] { return finish(run_backends(a.backends)); }},
-      {"devices", "What can draw on this machine, the default marked.",
-       options(add_devices_options, a.devices),
-       [&a, &drawing] { return finish(run_devices(a.devices, drawing)); }},
-      {"models", "The bundled models.", options(add_models_options, a.models),
-       [&a] { return finish(run_models(a.models)); }},
-      {"completion", "A script by which a shell completes commands, options and values.",
-       options(add_completion_options, a.shell),
-       [&a, &root] { return finish(run_completion(a.shell, root)); }},
-      {"help", "The help of a command.",
-       [&a](CLI::App& command) {
-         command.add_option("COMMAND", a.helped, "one of those of geotherm --help");
-       },
-       [&a, &root] {
-         if (a.helped.empty()) return print({help_of(root), {}, {}});
-         if (const CLI::App* const command = find_command(root, a.helped)) {
-           return print({help_of(*command), {}, {}});
-         }
-         return fail(2, "there is no command '" + a.helped + "'; " +
-                            known_words(a.helped, command_names(root)));
-       }},
+      subcommand("view", "A window to explore a model in; geotherm MODEL does the same.",
+                 add_view_options, view),
+      subcommand("solve", "Distance from a source set to every vertex.", add_solve_options, solve),
+      subcommand("batch",
+                 "Distances on many models, each in a process of its own; goes on where it ended.",
+                 add_batch_options, run_batch),
+      subcommand("plan", "Memory and time of a large solve, before it is started.",
+                 add_plan_options, run_plan),
+      subcommand("info", "What a model is, and what is wrong with it.", add_info_options, run_info),
+      subcommand("compare", "The same work through several backends, side by side.",
+                 add_compare_options, run_compare),
+      subcommand("render", "Pictures, without a display and without a window.", add_render_options,
+                 render),
+      subcommand("path", "Geodesic paths and streamlines.", add_path_options, run_path),
+      subcommand("logmap", "Where each vertex is seen from a point: start direction and distance.",
+                 add_log_map_options, run_log_map),
+      subcommand("trace", "Straightest lines from a point in given directions.", add_trace_options,
+                 run_trace),
+      subcommand("centre", "Where the distances to given points are least: their mean or median.",
+                 add_centre_options, run_centre),
+      subcommand("transport", "Tangent vectors carried over the surface without turning.",
+                 add_transport_options, run_transport),
+      subcommand("extend", "Values of some vertices carried to all.", add_extend_options,
+                 run_extend),
+      subcommand("signed", "Distance to curves, with the side.", add_signed_options, run_signed),
+      subcommand("isolines", "Lines of equal distance, closed or open.", add_isolines_options,
+                 run_isolines),
+      subcommand("sample", "Farthest-point samples, and the nearest of them to every vertex.",
+                 add_sample_options, run_sample),
+      subcommand("study", "The error of the heat method over time factors, rules and modes.",
+                 add_study_options, run_study),
+      subcommand("generate", "Writes a bundled model.", add_generate_options, run_generate),
+      subcommand("backends", "The linear solvers of this build, the default first.",
+                 add_list_options, run_backends),
+      subcommand("devices", "What can draw on this machine, the default marked.", add_list_options,
+                 devices),
+      subcommand("models", "The bundled models.", add_list_options, run_models),
+      subcommand("completion", "A script by which a shell completes commands, options and values.",
+                 add_completion_options, completion),
+      subcommand("help", "The help of a command.", add_help_options, help),
   };
 }
 
@@ -327,8 +300,7 @@ int run_command_line(std::vector<std::string> arguments, Drawing& drawing, Viewe
   root.footer(
       "Examples:\n  geotherm bunny\n  geotherm solve bunny -s 17 -o distances.ply\n"
       "geotherm COMMAND --help says more about each.");
-  AllArguments given;
-  const std::vector<Subcommand> commands = subcommands(given, root, drawing, window);
+  const std::vector<Subcommand> commands = subcommands(root, drawing, window);
   for (const Subcommand& each : commands) {
     CLI::App* const command = root.add_subcommand(each.name, each.description);
     each.add_options(*command);

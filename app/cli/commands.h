@@ -31,8 +31,8 @@ struct ListArguments {
   std::string json;
 };
 
-void add_backends_options(CLI::App& command, ListArguments& arguments);
-void add_models_options(CLI::App& command, ListArguments& arguments);
+/// Of `backends`, `models` and `devices`.
+void add_list_options(CLI::App& command, ListArguments& arguments);
 
 /// Name and description of the backends of this build, one a line, the default first.
 Result<CommandOutput> run_backends(const ListArguments& arguments);
@@ -40,15 +40,9 @@ Result<CommandOutput> run_backends(const ListArguments& arguments);
 /// Name, number of faces and description of the bundled models, one a line.
 Result<CommandOutput> run_models(const ListArguments& arguments);
 
-struct DevicesArguments {
-  std::string json;
-};
-
-void add_devices_options(CLI::App& command, DevicesArguments& arguments);
-
 /// What can draw on this machine, one a line, the default marked; what cannot says why. Errors:
 /// kNoDevice when there is none at all, those of the JSON file.
-Result<CommandOutput> run_devices(const DevicesArguments& arguments, Drawing& drawing);
+Result<CommandOutput> run_devices(const ListArguments& arguments, Drawing& drawing);
 
 /// The commands there are, in the order of the help.
 std::vector<std::string> command_names(const CLI::App& root);

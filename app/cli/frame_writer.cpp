@@ -69,7 +69,7 @@ Result<void> FrameWriter::take(int frame, const DrawnPicture& picture) {
   if (is_film(arguments_.output)) {
     if (!film_) {
       auto film = Film::open(arguments_.output, outputs_.place_of(arguments_.output), picture,
-                             rate_of(arguments_), one_line(figures_.command));
+                             rate_of(arguments_), one_line(typed_command()));
       if (!film) return film.error();
       film_ = *std::move(film);
     }

@@ -30,8 +30,7 @@ void add_line_file_options(CLI::App& command, LineFileArguments& arguments,
                              " go: .obj .csv .vtp, .svg (a picture), or - for CSV on standard "
                              "output; may be repeated"),
       "FILE");
-  command.add_option("--json", arguments.json, "every figure as JSON; - is standard output")
-      ->type_name("FILE");
+  add_json_option(command, arguments.json);
   add_line_picture_options(command, settings);
 }
 

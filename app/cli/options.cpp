@@ -28,6 +28,29 @@ void add_quiet_option(CLI::App& command, bool& quiet) {
   command.add_flag("--quiet", quiet, "no progress bar, no estimate of time");
 }
 
+CLI::Option* add_json_option(CLI::App& command, std::string& json, const std::string& what) {
+  return command.add_option("--json", json, what + " as JSON; - is standard output")
+      ->type_name("FILE");
+}
+
+Result<Index> whole_in(const std::string& option, const std::string& text, const std::string& what,
+                       Index least, Index most) {
+  const auto number = count_in(text);
+  if (number && *number >= least && *number <= most) return static_cast<Index>(*number);
+  const std::string from = std::to_string(least);
+  const bool endless = most == std::numeric_limits<Index>::max();
+  const std::string range =
+      endless ? "a whole number from " + from : from + " to " + std::to_string(most);
+  return about(option, bad_value(text, "is no " + what, "give " + range));
+}
+
+Result<double> real_in(const std::string& option, const std::string& text, const std::string& what,
+                       const std::string& hint, double least, double most) {
+  const auto number = number_in<double>(text);
+  if (number && *number >= least && *number <= most) return *number;
+  return about(option, bad_value(text, "is no " + what, hint));
+}
+
 namespace {
 
 const char* heading_of(SettingGroup group) {
@@ -207,8 +230,16 @@ std::string accuracy_note(const std::string& json, const Outputs& outputs, bool 
   return "accuracy: " + to_text(line);
 }
 
-Result<void> expect_report(const std::string& json, Outputs& outputs) {
-  return json.empty() ? Result<void>() : outputs.expect(json, "--json");
+Result<void> expect_report(const std::string& path, Outputs& outputs, const std::string& option) {
+  return path.empty() ? Result<void>() : outputs.expect(path, option);
+}
+
+Result<void> expect_files(const std::vector<std::string>& paths, const std::string& json,
+                          Outputs& outputs) {
+  for (const std::string& path : paths) {
+    if (auto expected = outputs.expect(path, "--output"); !expected) return expected;
+  }
+  return expect_report(json, outputs);
 }
 
 Result<CommandOutput> finish_command(CommandOutput out, Outputs& outputs, const std::string& path,
@@ -311,8 +342,8 @@ Result<PictureSettings> picture_settings(const ViewerState& asked, const Setting
     return map.error();
   }
   if (!a.turntable.empty()) {
-    const auto frames = whole_between(a.turntable, 1, kMaxFrames, "is no number of pictures");
-    if (!frames) return about("--turntable", frames.error());
+    const auto frames = whole_in("--turntable", a.turntable, "number of pictures", 1, kMaxFrames);
+    if (!frames) return frames.error();
     picture.turntable = *frames;
   }
   if (auto fits = check_colour_scale(picture); !fits) return fits.error();

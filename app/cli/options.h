@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <limits>
 #include <map>
 #include <span>
 #include <string>
@@ -66,6 +67,9 @@ void face_head_on(const Model& model, const SettingArguments& typed, PictureSett
 CLI::Option* add_model_option(CLI::App& command, std::string& model, SettingArguments& settings);
 void add_source_options(CLI::App& command, SourceArguments& arguments);
 void add_quiet_option(CLI::App& command, bool& quiet);
+/// --json; `what` is written there, for the help.
+CLI::Option* add_json_option(CLI::App& command, std::string& json,
+                             const std::string& what = "every figure");
 /// --max-distance, and what it says. Errors: kBadInput.
 void add_max_distance_option(CLI::App& command, std::string& text);
 /// `what`: "the distances", for the help.
@@ -84,6 +88,15 @@ std::vector<std::string> typed_sources(const SourceArguments& arguments);
 
 /// One point that an option names. Errors: kBadInput.
 Result<Source> single_point(const std::string& text, const std::string& option);
+
+/// The number that an option is given, a whole one in digits or as 2e6. `what`: "number of frames".
+/// Errors: kBadInput, with the option's name and the range, or with `hint`.
+Result<Index> whole_in(const std::string& option, const std::string& text, const std::string& what,
+                       Index least, Index most = std::numeric_limits<Index>::max());
+Result<double> real_in(const std::string& option, const std::string& text, const std::string& what,
+                       const std::string& hint = {},
+                       double least = std::numeric_limits<double>::lowest(),
+                       double most = std::numeric_limits<double>::max());
 
 /// The option may be given several times, each time with one value.
 CLI::Option* may_repeat(CLI::Option* option, const std::string& value_name);
@@ -113,7 +126,11 @@ std::string accuracy_note(const std::string& json, const Outputs& outputs, bool 
                           const AccuracyReport& report, const Warning& line);
 
 /// Where the report of a command goes; empty: there is none. Errors: those of Outputs::expect().
-Result<void> expect_report(const std::string& json, Outputs& outputs);
+Result<void> expect_report(const std::string& path, Outputs& outputs,
+                           const std::string& option = "--json");
+/// The same, and before it where all outputs go.
+Result<void> expect_files(const std::vector<std::string>& paths, const std::string& json,
+                          Outputs& outputs);
 
 /// How a command ends: its report goes to `path`, unless that is empty, files take their places,
 /// and the table is printed where no output goes to standard output. Errors: those of the files.

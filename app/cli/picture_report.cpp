@@ -120,15 +120,17 @@ std::string device_in_words(const DrawingDevice& device) {
 }
 
 std::string caption_of(const PictureFigures& f) {
-  return picture_caption(f.model, f.size, f.solve ? f.solve->method.get() : nullptr);
+  return picture_caption(f.model.name, size_in_words(f.model),
+                         f.solve ? f.solve->method.get() : nullptr);
 }
 
 std::vector<FileText> picture_texts(const PictureFigures& f, int frame) {
-  std::vector<FileText> texts = {{"Software", "geotherm " GEOTHERM_VERSION},
-                                 {"Title", f.model + ", " + geotherm::to_text(f.settings.view)},
-                                 {"Description", caption_of(f)}};
+  std::vector<FileText> texts = {
+      {"Software", "geotherm " GEOTHERM_VERSION},
+      {"Title", f.model.name + ", " + geotherm::to_text(f.settings.view)},
+      {"Description", caption_of(f)}};
   add(texts, "version", GEOTHERM_VERSION);
-  add(texts, "command", f.command);
+  add(texts, "command", typed_command());
   add(texts, "model", f.model_argument);
   add(texts, "sources", joined(f.sources, " "));
   add(texts, "field", f.field);
@@ -148,9 +150,7 @@ std::vector<FileText> picture_texts(const PictureFigures& f, int frame) {
 }
 
 Json picture_json(const PictureFigures& f) {
-  Json json =
-      f.solve ? solve_json(*f.solve)
-              : Json{{"model", {{"name", f.model}, {"vertices", f.vertices}, {"faces", f.faces}}}};
+  Json json = f.solve ? solve_json(*f.solve) : Json{{"model", brief_model_json(f.model)}};
   Json picture = settings_json(f);
   picture["files"] = f.paths;
   if (!f.field.empty()) picture["field"] = f.field;

@@ -8,20 +8,18 @@
 #include "app/picture/drawing.h"
 #include "app/picture/picture_scale.h"
 #include "app/picture/png_file.h"
+#include "app/session/model.h"
 #include "app/session/report.h"
 
 namespace geotherm::app {
 
 /// All there is to say about pictures of one model.
 struct PictureFigures {
-  std::string model;                 ///< its name
+  Model model;
   std::string model_argument;        ///< as typed: a path or a bundled name
   std::vector<std::string> sources;  ///< as typed
   std::string field;                 ///< the file of the values in place of distances, or empty
-  std::string command;               ///< the command line; empty: unknown
-  Index vertices = 0, faces = 0;
-  std::string size;             ///< size_in_words()
-  std::optional<Answer> solve;  ///< none: drawn without distances
+  std::optional<Answer> solve;       ///< none: drawn without distances
   PictureSettings settings;
   PictureScale scale;
   DrawingDevice device;

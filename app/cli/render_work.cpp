@@ -250,10 +250,7 @@ Result<PictureData> prepare_picture(const RenderArguments& arguments, const View
   auto model = load_model(arguments.model, asked.reading, progress);
   if (!model) return model.error();
   const std::shared_ptr<const TriangleMesh> mesh = model->mesh;
-  figures.model = model->name;
-  figures.vertices = mesh->vertex_count();
-  figures.faces = mesh->face_count();
-  figures.size = size_in_words(*model);
+  figures.model = *model;
   face_head_on(*model, arguments.settings, figures.settings);
   warnings = model->notes;
   const std::string unseen = model->space ? model->space->unseen() : "";
@@ -286,7 +283,7 @@ Result<PictureData> prepare_picture(const RenderArguments& arguments, const View
     said.message.insert(0, "there are no distances, the surface is drawn in grey: ");
     warnings.push_back(std::move(said));
     add_distances(data,
-                  std::vector<double>(static_cast<std::size_t>(figures.vertices), kUnreached));
+                  std::vector<double>(static_cast<std::size_t>(mesh->vertex_count()), kUnreached));
     return data;
   }
   add_sources(data, *mesh, solved->sources, places_in_cells(solver.model(), solved->sources));

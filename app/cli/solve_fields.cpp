@@ -20,11 +20,8 @@ Error about_option(const Error& error) { return about("--fields", error); }
 
 Result<std::vector<QualityField>> named_fields(const std::string& text, MethodKind method) {
   std::vector<QualityField> fields;
-  std::size_t from = 0;
-  while (from <= text.size()) {
-    const std::size_t comma = std::min(text.find(',', from), text.size());
-    const auto field =
-        parse<QualityField>(one_line(std::string(trimmed(text.substr(from, comma - from)))));
+  for (const std::string_view name : split(text, ',')) {
+    const auto field = parse<QualityField>(one_line(trimmed(name)));
     if (!field) return about_option(field.error());
     if (needs_heat(*field) && method != MethodKind::kHeat) {
       return Error{ErrorCode::kBadInput,
@@ -33,7 +30,6 @@ Result<std::vector<QualityField>> named_fields(const std::string& text, MethodKi
                    {"leave it out"}};
     }
     if (std::ranges::find(fields, *field) == fields.end()) fields.push_back(*field);
-    from = comma + 1;
   }
   return fields;
 }

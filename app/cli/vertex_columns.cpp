@@ -47,8 +47,7 @@ void add_column_options(CLI::App& command, std::vector<std::string>& outputs, st
                                     (pictures ? ", .svg (a picture)" : "") +
                                     ", or - for CSV on standard output; may be repeated"),
              "FILE");
-  command.add_option("--json", json, "every figure as JSON; - is standard output")
-      ->type_name("FILE");
+  add_json_option(command, json);
 }
 
 Result<void> expect_columns(const std::vector<std::string>& outputs, const std::string& json,

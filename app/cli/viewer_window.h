@@ -23,7 +23,6 @@ struct ViewerStart {
   int width = 0, height = 0;      ///< of the window; 0: the usual
   double scale = 0;               ///< of letters and panels; 0: the monitor's
   bool validation = false;        ///< reports what Vulkan's validation says as errors
-  std::string command;            ///< the command line, for the files of pictures
 };
 
 /// The program's link to the window, which this folder does not know. main() hands in the real one.
@@ -47,7 +46,6 @@ struct ViewPainter {
                                      bool panels, DrawAs as)>
       draw;
   std::function<DrawingDevice()> device;
-  std::string command;                   ///< the command line
   int width = 0, height = 0;             ///< where the command names no size; 0: the settings'
   std::optional<PaperLength> text_size;  ///< there, where the settings name none
 };

@@ -290,10 +290,8 @@ Result<std::vector<MethodOptions>> solvers_named(const std::string& text,
     if (!known) solvers.push_back(*std::move(solver));
     return {};
   };
-  for (std::size_t begin = 0; begin <= text.size();) {
-    const std::size_t end = std::min(text.find(',', begin), text.size());
-    const std::string name(trimmed(std::string_view(text).substr(begin, end - begin)));
-    begin = end + 1;
+  for (const std::string_view part : split(text, ',')) {
+    const std::string name(trimmed(part));
     const std::vector<std::string> meant =
         name == "all" ? backend_names() : std::vector<std::string>{name};
     for (const std::string& each : meant) {

@@ -27,16 +27,6 @@ Error unreadable(std::string message, Hint hint = {}) {
 
 std::string quoted(std::string_view text) { return "'" + one_line(std::string(text)) + "'"; }
 
-std::vector<std::string_view> split(std::string_view text, char at) {
-  std::vector<std::string_view> parts;
-  for (std::size_t begin = 0;;) {
-    const std::size_t end = text.find(at, begin);
-    parts.push_back(text.substr(begin, end - begin));
-    if (end == std::string_view::npos) return parts;
-    begin = end + 1;
-  }
-}
-
 Result<std::array<double, 3>> three_numbers(std::span<const std::string_view> parts) {
   std::array<double, 3> numbers{};
   for (std::size_t k = 0; k < 3; ++k) {

@@ -42,6 +42,9 @@ std::string joined(const Range& parts, std::string_view between = ", ") {
 
 std::string_view trimmed(std::string_view text);
 
+/// The parts between the characters `at`: one more than there are of these.
+std::vector<std::string_view> split(std::string_view text, char at);
+
 /// The whole of `text` as a number, or nothing.
 template <class Number>
 std::optional<Number> number_in(std::string_view text) {

@@ -300,7 +300,6 @@ Result<void> WindowLoop::save_picture(const command::SavePicture& save, const Se
   const bool drawable = screen_->window_extent().x > 0;
   if (auto updated = screen_->update(session, screen_->area()); !updated) return updated;
   ViewPainter painter;
-  painter.command = start_.command;
   painter.device = [this] { return screen_->device(); };
   const glm::ivec2 extent = save.panels ? screen_->window_extent() : screen_->area().extent;
   if (drawable) {

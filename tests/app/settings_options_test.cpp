@@ -79,7 +79,7 @@ TEST(SettingsOptions, OfAPictureStandInItsFileAndItsJson) {
                                  .kind = SettingKind::kSwitch,
                                  .get = [](const ViewerState&) { return std::string("on"); }});
   app::PictureFigures figures;
-  figures.model = "square";
+  figures.model.mesh = finish(plane_grid(3, 3, 1, 1));
   const std::vector<app::FileText> texts = app::picture_texts(figures, 0);
   const auto glow = std::ranges::find(texts, "geotherm:test-glow", &app::FileText::keyword);
   ASSERT_NE(glow, texts.end());

@@ -128,7 +128,7 @@ TEST(SettingsPages, OfReportsKnowTheKeysOfAllSettings) {
   model.mesh = finish(plane_grid(3, 3, 1, 1));
   app::ModelSolver solver(model);
   app::PictureFigures figures;
-  figures.model = "square";
+  figures.model = model;
   const auto options = [&] {
     const auto solved = solver.solve({}, {SourceSet::of_vertices({0}), {}}, {});
     return solved ? app::solve_json(*solved)["options"] : Json();
