@@ -203,7 +203,7 @@ Result<Mask> read_mask(const std::string& text, const TriangleMesh& mesh) {
   const io::MaskText what = io::parse_mask_text(text);
   const auto file = io::InputFile::open_as_is(what.path);
   if (!file) return file.error();
-  return io::guarded_read(io::printable(what.path), "mask", file->size(), [&]() -> Result<Mask> {
+  return io::read_unchanged(*file, file->shown(), "mask", [&]() -> Result<Mask> {
     const io::FileBytes bytes(*file);
     const std::string extension = io::file_extension(what.path);
     const io::MaskNumbers numbers = io::read_mask_numbers(bytes.bytes(), extension, what.property);

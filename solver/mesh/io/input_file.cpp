@@ -260,6 +260,15 @@ Result<void> InputFile::check_unchanged() const {
                {"read it again once it is complete"}};
 }
 
+Error unknown_model(const InputFile& file, const std::string& of, unsigned holds) {
+  const std::string& extension = file.extension();
+  return {ErrorCode::kNotAvailable,
+          file.shown() + ": " +
+              (extension.empty() ? "neither its name nor its first bytes say what it is"
+                                 : "unknown extension \"" + printable(extension) + "\"" + of),
+          {"there are " + extensions_holding(holds)}};
+}
+
 namespace {
 
 LargeBuffer room_for(std::size_t bytes) {
