@@ -43,7 +43,7 @@ bool has_corners(const PlyElement& face) {
   if (list < 0) list = face.find("vertex_index", true);
   if (list < 0) return false;
   const PlyProperty& corners = face.properties[static_cast<std::size_t>(list)];
-  return corners.type < io::PlyType::kFloat32 && corners.count_type < io::PlyType::kFloat32;
+  return io::is_whole(corners.type) && io::is_whole(corners.count_type);
 }
 
 class SliceReader {

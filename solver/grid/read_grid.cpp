@@ -9,24 +9,10 @@
 #include "solver/core/text.h"
 #include "solver/geometry/grid_mesh.h"
 #include "solver/grid/io/raw_grid.h"
-#include "solver/mesh/io/byte_order.h"
 #include "solver/mesh/io/formats.h"
 #include "solver/mesh/io/input_file.h"
 
 namespace geotherm::io {
-namespace {
-
-template <class T>
-std::vector<double> decode(std::string_view bytes, std::size_t count, std::endian order) {
-  std::vector<double> out(count);
-  for (std::size_t i = 0; i < count; ++i) {
-    out[i] = static_cast<double>(load<T>(bytes.data() + i * sizeof(T), order));
-  }
-  return out;
-}
-
-}  // namespace
-
 std::size_t count_samples(const std::array<std::int64_t, 3>& size) {
   std::int64_t count = 1;
   for (const std::int64_t each : size) {
@@ -40,41 +26,18 @@ std::size_t count_samples(const std::array<std::int64_t, 3>& size) {
   return static_cast<std::size_t>(count);
 }
 
-std::vector<double> decode_samples(std::string_view bytes, std::size_t count, VtkType type,
+std::vector<double> decode_samples(std::string_view bytes, std::size_t count, NumberType type,
                                    std::endian order) {
   if (count > bytes.size() / size_of(type)) {
     throw ReadFailure{"there are to be " + std::to_string(count) + " samples of " +
                       counted_text(size_of(type), "byte", "bytes") + ", but only " +
                       std::to_string(bytes.size()) + " bytes follow"};
   }
-  switch (type) {
-    case VtkType::kInt8:
-      return decode<std::int8_t>(bytes, count, order);
-    case VtkType::kUint8:
-      return decode<std::uint8_t>(bytes, count, order);
-    case VtkType::kInt16:
-      return decode<std::int16_t>(bytes, count, order);
-    case VtkType::kUint16:
-      return decode<std::uint16_t>(bytes, count, order);
-    case VtkType::kInt32:
-      return decode<std::int32_t>(bytes, count, order);
-    case VtkType::kUint32:
-      return decode<std::uint32_t>(bytes, count, order);
-    case VtkType::kInt64:
-      return decode<std::int64_t>(bytes, count, order);
-    case VtkType::kUint64:
-      return decode<std::uint64_t>(bytes, count, order);
-    case VtkType::kFloat32:
-      return decode<float>(bytes, count, order);
-    case VtkType::kFloat64:
-      break;
-  }
-  return decode<double>(bytes, count, order);
+  return decode_numbers(bytes, count, type, order);
 }
 
-RawGrid::Values values_of(VtkType type) {
-  const bool real = type == VtkType::kFloat32 || type == VtkType::kFloat64;
-  return real ? RawGrid::Values::kReals : RawGrid::Values::kWholes;
+RawGrid::Values values_of(NumberType type) {
+  return is_whole(type) ? RawGrid::Values::kWholes : RawGrid::Values::kReals;
 }
 
 }  // namespace geotherm::io
