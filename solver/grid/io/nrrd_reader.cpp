@@ -1,15 +1,13 @@
 // SPDX-License-Identifier: MIT
 // Nearly raw raster data (Teem: https://teem.sourceforge.net/nrrd/format.html): lines of text up to
 // an empty one, then the samples, or in a file of their own. The first axis is the fastest.
-#include <zlib.h>
-
 #include <algorithm>
 #include <cmath>
-#include <new>
 #include <utility>
 
 #include "solver/core/text.h"
 #include "solver/grid/io/raw_grid.h"
+#include "solver/mesh/io/gzip.h"
 #include "solver/mesh/io/input_file.h"
 #include "solver/mesh/io/text_scanner.h"
 
@@ -266,26 +264,7 @@ std::string unzipped(std::string_view packed, std::size_t bytes) {
   }
   // One byte more than there are to be, so that the stream is read to its end, its checksum.
   std::string out(bytes + 1, '\0');
-  z_stream stream{};
-  constexpr int kGzip = 16 + MAX_WBITS;
-  if (inflateInit2(&stream, kGzip) != Z_OK) throw std::bad_alloc();
-  constexpr std::size_t kMaxAtOnce = 1 << 30;
-  std::size_t taken = 0, made = 0;
-  int code = Z_OK;
-  while (code == Z_OK && made < out.size()) {
-    stream.next_in =
-        reinterpret_cast<Bytef*>(const_cast<char*>(packed.data() + taken));  // zlib's own const
-    stream.avail_in = static_cast<uInt>(std::min(kMaxAtOnce, packed.size() - taken));
-    stream.next_out = reinterpret_cast<Bytef*>(out.data() + made);
-    stream.avail_out = static_cast<uInt>(std::min(kMaxAtOnce, out.size() - made));
-    const uInt in = stream.avail_in, room = stream.avail_out;
-    code = inflate(&stream, Z_NO_FLUSH);
-    taken += in - stream.avail_in;
-    made += room - stream.avail_out;
-    if (in == stream.avail_in && room == stream.avail_out) break;
-  }
-  inflateEnd(&stream);
-  if (code == Z_MEM_ERROR) throw std::bad_alloc();
+  const auto [made, ended] = unpack_gzip_stream(packed, out.data(), out.size());
   if (made < bytes) {
     throw ReadFailure{"the compressed samples are damaged or too few: " + std::to_string(made) +
                       " bytes of " + std::to_string(bytes)};
@@ -294,7 +273,7 @@ std::string unzipped(std::string_view packed, std::size_t bytes) {
     throw ReadFailure{"there are to be " + std::to_string(bytes) +
                       " bytes, but the compressed samples are more"};
   }
-  if (code != Z_STREAM_END) {
+  if (!ended) {
     throw ReadFailure{"the compressed samples are cut off or damaged behind their " +
                       std::to_string(bytes) + " bytes: " + std::to_string(packed.size()) +
                       " compressed ones do not end with their checksum"};
