@@ -60,10 +60,8 @@ MaskNumbers numbers_in_label(std::string_view text) {
   scanner.now_reading("the header");
   if (scanner.peek().starts_with('#')) scanner.skip_line();
   const std::int64_t count = scanner.integer();
-  if (count < 0 || static_cast<std::uint64_t>(count) > (scanner.bytes_left() + 1) / 2) {
-    scanner.fail("the header announces " + std::to_string(count) + " vertices, but only " +
-                 std::to_string(scanner.bytes_left()) + " bytes follow");
-  }
+  checked_count(scanner, count, "vertices", (scanner.bytes_left() + 1) / 2,
+                "the header announces ");
   for (std::int64_t i = 0; i < count; ++i) {
     scanner.skip_line();
     scanner.now_reading("line", i + 1, count);
