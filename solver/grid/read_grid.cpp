@@ -13,6 +13,7 @@
 #include "solver/mesh/io/input_file.h"
 
 namespace geotherm::io {
+
 std::size_t count_samples(const std::array<std::int64_t, 3>& size) {
   std::int64_t count = 1;
   for (const std::int64_t each : size) {
