@@ -43,7 +43,7 @@ bool has_corners(const PlyElement& face) {
   if (list < 0) list = face.find("vertex_index", true);
   if (list < 0) return false;
   const PlyProperty& corners = face.properties[static_cast<std::size_t>(list)];
-  return corners.type < io::PlyType::kFloat32 && corners.count_type < io::PlyType::kFloat32;
+  return io::is_whole(corners.type) && io::is_whole(corners.count_type);
 }
 
 class SliceReader {
@@ -51,23 +51,36 @@ class SliceReader {
   SliceReader(const io::InputFile& file, PlyHeader header, std::int64_t body, int part, int parts)
       : file_(file), header_(std::move(header)), body_(body), part_(part), parts_(parts) {}
 
-  Result<MeshSlice> read() {
+  /// Throws ReadFailure.
+  MeshSlice read() {
     std::int64_t at = body_;
     for (const PlyElement& element : header_.elements) {
+      if (slice_.faces > 0) break;  // behind what is needed
+      if (element.count == 0) continue;
       const std::int64_t bytes = row_bytes(element);
-      const bool needed = element.name == "vertex" || element.name == "face";
-      if (bytes == 0 && element.count > 0) {
-        if (slice_.faces > 0) break;  // behind what is needed
-        return not_sized(element);
+      if (bytes == 0) {
+        throw ReadFailure{std::string("a ") + io::row_name(element) +
+                              " has lists of its own, and ranks read rows of one size",
+                          0,
+                          {},
+                          {"write vertices and triangles alone"}};
       }
-      if (needed) {
-        const auto left = static_cast<std::int64_t>(file_.size()) - at;
-        if (element.count > left / bytes)
-          return too_short(element, bytes, std::max<std::int64_t>(left, 0));
-        auto done = header_.format == PlyFormat::kLittleEndian
-                        ? read_rows<std::endian::little>(element, at, bytes)
-                        : read_rows<std::endian::big>(element, at, bytes);
-        if (!done) return done.error();
+      const std::int64_t left = static_cast<std::int64_t>(file_.size()) - at;
+      if (element.count > left / bytes) {
+        throw ReadFailure{"the file ends: " + std::to_string(element.count) + " of element " +
+                              io::quoted(element.name, element.name.data()) + " take " +
+                              std::to_string(bytes) + " bytes each, and " + std::to_string(left) +
+                              " bytes follow",
+                          0,
+                          {},
+                          {"was it cut short? Faces must be triangles"}};
+      }
+      if (element.name == "vertex" || element.name == "face") {
+        if (header_.format == PlyFormat::kLittleEndian) {
+          read_rows<std::endian::little>(element, at, bytes);
+        } else {
+          read_rows<std::endian::big>(element, at, bytes);
+        }
       }
       at += bytes * element.count;
     }
@@ -75,23 +88,8 @@ class SliceReader {
   }
 
  private:
-  Error bad(const std::string& what, Hint hint = {}) const {
-    return {ErrorCode::kBadFile, file_.shown() + ": " + what, std::move(hint)};
-  }
-  Error not_sized(const PlyElement& element) const {
-    return bad(std::string("a ") + io::row_name(element) +
-                   " has lists of its own, and ranks read rows of one size",
-               {"write vertices and triangles alone"});
-  }
-  Error too_short(const PlyElement& element, std::int64_t bytes, std::int64_t left) const {
-    return bad("the file ends: " + std::to_string(element.count) + " of element \"" +
-                   io::row_name(element) + "\" take " + std::to_string(bytes) +
-                   " bytes each, and " + std::to_string(left) + " bytes follow",
-               {"was it cut short? Faces must be triangles"});
-  }
-
   template <std::endian Order>
-  Result<void> read_rows(const PlyElement& element, std::int64_t at, std::int64_t bytes) {
+  void read_rows(const PlyElement& element, std::int64_t at, std::int64_t bytes) {
     const std::int64_t first = share_begin(element.count, part_, parts_);
     const std::int64_t end = share_begin(element.count, part_ + 1, parts_);
     const bool faces = element.name == "face";
@@ -112,17 +110,17 @@ class SliceReader {
       io::BinaryBody<Order> body(rows, header);
       for (; row < next; ++row) {
         body.now_reading(element, row);
-        if (auto taken = faces ? take_face(body, element, row) : take_vertex(body, element, row);
-            !taken) {
-          return taken;
+        if (faces) {
+          take_face(body, element, row);
+        } else {
+          take_vertex(body, element, row);
         }
       }
     }
-    return {};
   }
 
   template <class Body>
-  Result<void> take_vertex(Body& body, const PlyElement& element, std::int64_t row) {
+  void take_vertex(Body& body, const PlyElement& element, std::int64_t row) {
     Vec3 position = Vec3::Zero();
     for (const PlyProperty& property : element.properties) {
       const double value = body.number(property.type);
@@ -130,15 +128,14 @@ class SliceReader {
       if (property.name.size() == 1 && axis < 3) position[static_cast<Eigen::Index>(axis)] = value;
     }
     if (!position.allFinite()) {
-      return bad("a coordinate is not finite in vertex " + std::to_string(row + 1) + " of " +
-                 std::to_string(element.count));
+      throw ReadFailure{"a coordinate is not finite in vertex " + std::to_string(row + 1) + " of " +
+                        std::to_string(element.count)};
     }
     slice_.positions.push_back(position);
-    return {};
   }
 
   template <class Body>
-  Result<void> take_face(Body& body, const PlyElement& element, std::int64_t row) {
+  void take_face(Body& body, const PlyElement& element, std::int64_t row) {
     const auto where = [&] {
       return " in face " + std::to_string(row + 1) + " of " + std::to_string(element.count);
     };
@@ -149,22 +146,24 @@ class SliceReader {
       }
       const auto count = static_cast<std::int64_t>(body.number(property.count_type));
       if (count != 3) {
-        return bad(std::to_string(count) + " corners" + where() +
-                       ", and ranks read triangles, which have rows of one size",
-                   {"triangulate the mesh"});
+        throw ReadFailure{std::to_string(count) + " corners" + where() +
+                              ", and ranks read triangles, which have rows of one size",
+                          0,
+                          {},
+                          {"triangulate the mesh"}};
       }
       auto& face = slice_.corners.emplace_back();
       for (GlobalIndex& corner : face) {
         const double number = body.number(property.type);
         if (!(number >= 0 && number < static_cast<double>(slice_.vertices))) {
-          return bad("vertex " + std::to_string(static_cast<std::int64_t>(number)) +
-                     " is used, but the file has " + std::to_string(slice_.vertices) +
-                     " vertices (0 to " + std::to_string(slice_.vertices - 1) + ")" + where());
+          throw ReadFailure{"vertex " + std::to_string(static_cast<std::int64_t>(number)) +
+                            " is used, but the file has " + std::to_string(slice_.vertices) +
+                            " vertices (0 to " + std::to_string(slice_.vertices - 1) + ")" +
+                            where()};
         }
         corner = static_cast<GlobalIndex>(number);
       }
     }
-    return {};
   }
 
   const io::InputFile& file_;
@@ -198,7 +197,7 @@ Result<PlyHeader> header_of(const io::InputFile& file, const std::string& start)
 Result<MeshCounts> count_ply(const std::string& path) {
   auto file = io::InputFile::open_as_is(path);
   if (!file) return file.error();
-  return io::guarded_read(file->shown(), "mesh", file->size(), [&]() -> Result<MeshCounts> {
+  return io::read_unchanged(*file, file->shown(), "mesh", [&]() -> Result<MeshCounts> {
     const std::string start = file->start(kMaxPlyHeader);
     const auto header = header_of(*file, start);
     if (!header) return header.error();
@@ -209,7 +208,7 @@ Result<MeshCounts> count_ply(const std::string& path) {
 Result<MeshSlice> read_ply_slice(const std::string& path, int part, int parts) {
   auto file = io::InputFile::open_as_is(path);
   if (!file) return file.error();
-  return io::guarded_read(file->shown(), "mesh", file->size(), [&]() -> Result<MeshSlice> {
+  return io::read_unchanged(*file, file->shown(), "mesh", [&]() -> Result<MeshSlice> {
     const std::string start = file->start(kMaxPlyHeader);
     auto header = header_of(*file, start);
     if (!header) return header.error();

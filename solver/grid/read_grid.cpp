@@ -9,23 +9,10 @@
 #include "solver/core/text.h"
 #include "solver/geometry/grid_mesh.h"
 #include "solver/grid/io/raw_grid.h"
-#include "solver/mesh/io/byte_order.h"
 #include "solver/mesh/io/formats.h"
 #include "solver/mesh/io/input_file.h"
 
 namespace geotherm::io {
-namespace {
-
-template <class T>
-std::vector<double> decode(std::string_view bytes, std::size_t count, std::endian order) {
-  std::vector<double> out(count);
-  for (std::size_t i = 0; i < count; ++i) {
-    out[i] = static_cast<double>(load<T>(bytes.data() + i * sizeof(T), order));
-  }
-  return out;
-}
-
-}  // namespace
 
 std::size_t count_samples(const std::array<std::int64_t, 3>& size) {
   std::int64_t count = 1;
@@ -40,41 +27,18 @@ std::size_t count_samples(const std::array<std::int64_t, 3>& size) {
   return static_cast<std::size_t>(count);
 }
 
-std::vector<double> decode_samples(std::string_view bytes, std::size_t count, VtkType type,
+std::vector<double> decode_samples(std::string_view bytes, std::size_t count, NumberType type,
                                    std::endian order) {
   if (count > bytes.size() / size_of(type)) {
     throw ReadFailure{"there are to be " + std::to_string(count) + " samples of " +
                       counted_text(size_of(type), "byte", "bytes") + ", but only " +
                       std::to_string(bytes.size()) + " bytes follow"};
   }
-  switch (type) {
-    case VtkType::kInt8:
-      return decode<std::int8_t>(bytes, count, order);
-    case VtkType::kUint8:
-      return decode<std::uint8_t>(bytes, count, order);
-    case VtkType::kInt16:
-      return decode<std::int16_t>(bytes, count, order);
-    case VtkType::kUint16:
-      return decode<std::uint16_t>(bytes, count, order);
-    case VtkType::kInt32:
-      return decode<std::int32_t>(bytes, count, order);
-    case VtkType::kUint32:
-      return decode<std::uint32_t>(bytes, count, order);
-    case VtkType::kInt64:
-      return decode<std::int64_t>(bytes, count, order);
-    case VtkType::kUint64:
-      return decode<std::uint64_t>(bytes, count, order);
-    case VtkType::kFloat32:
-      return decode<float>(bytes, count, order);
-    case VtkType::kFloat64:
-      break;
-  }
-  return decode<double>(bytes, count, order);
+  return decode_numbers(bytes, count, type, order);
 }
 
-RawGrid::Values values_of(VtkType type) {
-  const bool real = type == VtkType::kFloat32 || type == VtkType::kFloat64;
-  return real ? RawGrid::Values::kReals : RawGrid::Values::kWholes;
+RawGrid::Values values_of(NumberType type) {
+  return is_whole(type) ? RawGrid::Values::kWholes : RawGrid::Values::kReals;
 }
 
 }  // namespace geotherm::io
@@ -91,11 +55,6 @@ constexpr GridFormat kGridFormats[] = {{".npy", io::read_npy},
                                        {".vti", io::read_vti},
                                        {".nrrd", nullptr},
                                        {".nhdr", nullptr}};
-
-const GridFormat* grid_format_of(std::string_view extension) {
-  const auto* const found = std::ranges::find(kGridFormats, extension, &GridFormat::extension);
-  return found == std::end(kGridFormats) ? nullptr : found;
-}
 
 /// "in column 3 of row 5", "in column 3 of row 5 of layer 7".
 std::string place_in(const std::array<std::int64_t, 3>& size, std::size_t sample) {
@@ -157,23 +116,19 @@ std::string data_path(const std::string& path, const std::string& data_file) {
   return path.substr(0, slash + 1) + data_file;
 }
 
-/// Throws ReadFailure and std::bad_alloc, or gives the error of a file that cannot be opened.
-Result<io::RawGrid> read_nrrd(const std::string& path, std::string_view bytes) {
+/// Throws ReadFailure and std::bad_alloc, or gives the error of the other file.
+Result<io::RawGrid> read_nrrd(const io::InputFile& file, std::string_view bytes) {
   const io::NrrdHeader header = io::read_nrrd_header(bytes);
   if (header.data_file.empty()) {
     return io::read_nrrd_data(header, bytes.substr(header.data_begins));
   }
-  const std::string data_name = data_path(path, header.data_file);
-  const auto data = io::InputFile::open_as_is(data_name);  // its header says how it is packed
+  // The header says how it is packed.
+  const auto data = io::InputFile::open_as_is(data_path(file.path(), header.data_file));
   if (!data) return data.error();
-  try {
-    io::RawGrid raw = io::read_nrrd_data(header, io::FileBytes(*data).bytes());
-    if (auto same = data->check_unchanged(); !same) return same.error();
-    return raw;
-  } catch (io::ReadFailure& failure) {
-    failure.message.insert(0, io::printable(data_name) + ": ");
-    throw;
-  }
+  return io::read_unchanged(*data, file.shown() + ": " + data->shown(), "grid",
+                            [&]() -> Result<io::RawGrid> {
+                              return io::read_nrrd_data(header, io::FileBytes(*data).bytes());
+                            });
 }
 
 }  // namespace
@@ -187,30 +142,23 @@ NamedValues<GridValues> named_values(GridValues) {
 std::vector<std::string> grid_formats() { return io::formats_holding(io::kGrid); }
 
 bool holds_grid(const ModelInput& input) {
-  return grid_format_of(input.file().extension()) != nullptr;
+  return io::format_of(kGridFormats, input.file().extension()) != nullptr;
 }
 
 bool holds_grid(const std::string& path) {
-  return grid_format_of(io::model_extension(path)) != nullptr;
+  return io::format_of(kGridFormats, io::model_extension(path)) != nullptr;
 }
 
 Result<GridFile> read_grid(const ModelInput& input, GridValues values) {
   const io::InputFile& file = input.file();
-  const GridFormat* const format = grid_format_of(file.extension());
-  if (format == nullptr) {
-    return Error{
-        ErrorCode::kNotAvailable,
-        file.shown() + ": unknown extension \"" + io::printable(file.extension()) + "\" of grids",
-        {"there are " + io::extensions_holding(io::kGrid)}};
-  }
-  return io::guarded_read(file.shown(), "grid", file.size(), [&]() -> Result<GridFile> {
+  const GridFormat* const format = io::format_of(kGridFormats, file.extension());
+  if (format == nullptr) return io::unknown_model(file, " of grids", io::kGrid);
+  return io::read_unchanged(file, file.shown(), "grid", [&]() -> Result<GridFile> {
     const io::FileBytes bytes(file);
-    auto raw = format->read != nullptr ? format->read(bytes.bytes())
-                                       : read_nrrd(file.path(), bytes.bytes());
+    auto raw =
+        format->read != nullptr ? format->read(bytes.bytes()) : read_nrrd(file, bytes.bytes());
     if (!raw) return raw.error();
-    auto made = finish_grid(*std::move(raw), values);
-    if (auto same = file.check_unchanged(); !same) return same.error();
-    return made;
+    return finish_grid(*std::move(raw), values);
   });
 }
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include <cstdint>
-#include <new>
 #include <string>
 
 #include "geotherm/domains.h"
 #include "solver/core/text.h"
 #include "solver/mesh/io/byte_order.h"
 #include "solver/mesh/io/format_writers.h"
+#include "solver/mesh/io/vtk_writer.h"
 #include "solver/mesh/output_file.h"
 
 namespace geotherm {
@@ -34,8 +34,7 @@ std::string grid_npy_bytes(const Grid& grid, const GridData& data) {
   return bytes;
 }
 
-/// VTK's XML image; the arrays are appended raw, with 64-bit lengths. Axes that run backwards are
-/// turned by the matrix Direction.
+/// VTK's XML image. Axes that run backwards are turned by the matrix Direction.
 std::string vti_bytes(const Grid& grid, const GridData& data) {
   std::string extent, origin, spacing, direction;
   for (std::size_t e = 0; e < 3; ++e) {
@@ -48,38 +47,17 @@ std::string vti_bytes(const Grid& grid, const GridData& data) {
       direction += (direction.empty() ? "" : " ") + std::string(e == f ? along : "0");
     }
   }
-  std::uint64_t offset = 0;
-  const auto array = [&offset](const std::string& type, const std::string& name,
-                               std::uint64_t bytes) {
-    std::string tag = "<DataArray type=\"" + type + "\" Name=\"" + name +
-                      "\" format=\"appended\" offset=\"" + std::to_string(offset) + "\"/>\n";
-    offset += sizeof(std::uint64_t) + bytes;
-    return tag;
-  };
-  const std::uint64_t count = data.distances.size();
-  std::string text =
-      "<?xml version=\"1.0\"?>\n<VTKFile type=\"ImageData\" version=\"1.0\" "
-      "byte_order=\"LittleEndian\" header_type=\"UInt64\">\n<ImageData WholeExtent=\"" +
-      extent + "\" Origin=\"" + origin + "\" Spacing=\"" + spacing + "\" Direction=\"" + direction +
-      "\">\n<Piece Extent=\"" + extent + "\">\n<PointData Scalars=\"distance\">\n" +
-      array("Float64", "distance", count * sizeof(double));
-  if (!data.nearest.empty()) text += array("Int32", "nearest_source", count * sizeof(Index));
-  for (const DataField& field : data.fields) {
-    text += array("Float64", field.name, count * sizeof(double));
-  }
-  text += "</PointData>\n<CellData/>\n</Piece>\n</ImageData>\n<AppendedData encoding=\"raw\">\n_";
-  text.reserve(text.size() + offset + 64);
-  const auto append = [&text](std::span<const double> values) {
-    io::append_little(text, std::uint64_t{values.size() * sizeof(double)});
-    for (const double each : values) io::append_little(text, each);
-  };
-  append(data.distances);
-  if (!data.nearest.empty()) {
-    io::append_little(text, std::uint64_t{count * sizeof(Index)});
-    for (const Index each : data.nearest) io::append_little(text, each);
-  }
-  for (const DataField& field : data.fields) append(field.values);
-  return text + "\n</AppendedData>\n</VTKFile>\n";
+  const std::string attributes = " WholeExtent=\"" + extent + "\" Origin=\"" + origin +
+                                 "\" Spacing=\"" + spacing + "\" Direction=\"" + direction + '"';
+  return io::vtk_bytes("ImageData", attributes, "Extent=\"" + extent + '"',
+                       [&](io::VtkWriter& file) {
+                         file.text("<PointData Scalars=\"distance\">\n");
+                         file.answers(data.distances, data.nearest);
+                         for (const DataField& field : data.fields) {
+                           file.array<double>(field.name, std::span<const double>(field.values));
+                         }
+                         file.text("</PointData>\n<CellData/>\n");
+                       });
 }
 
 /// Whether the numbers have a value for each sample, and the file a place for them.
@@ -104,26 +82,21 @@ Result<void> check_grid_values(const std::string& path, const Grid& grid, const 
 }  // namespace
 
 Result<void> check_grid_distances_path(const std::string& path) {
-  const std::string extension = io::written_extension(path);
-  if (extension == ".csv" || extension == ".npy" || extension == ".vti") return {};
-  return Error{
-      ErrorCode::kNotAvailable,
-      io::printable(path) + ": unknown extension \"" + io::printable(extension) + "\" for a grid",
-      {"there are .csv .npy .vti"}};
+  return check_written(path, ".csv .npy .vti", " for a grid");
 }
 
 Result<void> write_distances(const std::string& path, const Grid& grid,
                              std::span<const double> distances, std::span<const Index> nearest,
-                             std::span<const DataField> fields) try {
+                             std::span<const DataField> fields) {
   if (auto known = check_grid_distances_path(path); !known) return known;
   const GridData data{distances, nearest, fields};
   if (auto fits = check_grid_values(path, grid, data); !fits) return fits;
   const std::string extension = io::written_extension(path);
-  if (extension == ".vti") return write_file(path, vti_bytes(grid, data));
-  if (extension == ".npy") return write_file(path, grid_npy_bytes(grid, data));
-  return write_file(path, io::csv_bytes(distances, nearest, fields));
-} catch (const std::bad_alloc&) {
-  return Error{ErrorCode::kOutOfMemory, io::printable(path) + ": not enough memory to write it"};
+  return write_made(path, [&] {
+    if (extension == ".vti") return vti_bytes(grid, data);
+    if (extension == ".npy") return grid_npy_bytes(grid, data);
+    return io::csv_bytes(distances, nearest, fields);
+  });
 }
 
 }  // namespace geotherm

@@ -206,8 +206,8 @@ namespace {
 Result<io::MovingScene> scene_for(const io::InputFile& file, const std::string& path,
                                   const TriangleMesh& mesh) {
   auto scene =
-      io::guarded_read(io::printable(path), "mesh", file.size(),
-                       [&]() -> Result<io::MovingScene> { return io::read_moving_scene(file); });
+      io::read_unchanged(file, io::printable(path), "mesh",
+                         [&]() -> Result<io::MovingScene> { return io::read_moving_scene(file); });
   if (!scene) return scene.error();
   if (auto same = check_faces(scene->mesh, mesh); !same) {
     return Error{same.error().code, io::printable(path) + ": " + same.error().message,
@@ -218,13 +218,13 @@ Result<io::MovingScene> scene_for(const io::InputFile& file, const std::string& 
 
 /// The header of an array for a mesh. Errors: those of Frames::open().
 Result<io::FrameArray> array_for(const io::InputFile& file, const std::string& path,
-                                 const TriangleMesh& mesh) try {
-  const io::FrameArray array = io::read_frame_array(file, file.extension());
-  if (array.vertices == mesh.vertex_count()) return array;
-  return other_mesh(io::printable(path) + ": its frames have " + std::to_string(array.vertices) +
-                    " vertices, and the model " + std::to_string(mesh.vertex_count()));
-} catch (const io::ReadFailure& failure) {
-  return Error{ErrorCode::kBadFile, io::printable(path) + ": " + failure.message, failure.hint};
+                                 const TriangleMesh& mesh) {
+  return io::read_unchanged(file, io::printable(path), "frames", [&]() -> Result<io::FrameArray> {
+    const io::FrameArray array = io::read_frame_array(file, file.extension());
+    if (array.vertices == mesh.vertex_count()) return array;
+    return other_mesh(io::printable(path) + ": its frames have " + std::to_string(array.vertices) +
+                      " vertices, and the model " + std::to_string(mesh.vertex_count()));
+  });
 }
 
 }  // namespace

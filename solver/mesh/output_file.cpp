@@ -15,6 +15,7 @@
 #include <csignal>
 #include <cstdio>
 #include <filesystem>
+#include <new>
 #include <system_error>
 #include <utility>
 
@@ -350,6 +351,28 @@ Result<void> write_file(const std::string& path, std::string_view bytes) {
   if (!file) return file.error();
   if (auto written = file->append(bytes); !written) return written;
   return file->finish();
+}
+
+Result<void> check_written(const std::string& path, const std::string& known,
+                           const std::string& of) {
+  const std::string extension = io::file_extension(path);
+  if (path == "-" || (!extension.empty() && (known + ' ').find(extension + ' ') != known.npos)) {
+    return {};
+  }
+  return Error{ErrorCode::kNotAvailable,
+               io::printable(path) + ": unknown extension \"" + io::printable(extension) + '"' + of,
+               {"there are " + known}};
+}
+
+Result<void> write_made(const std::string& path,
+                        const std::function<Result<std::string>()>& make_bytes) try {
+  const Result<std::string> bytes = make_bytes();
+  if (bytes) return write_file(path, *bytes);
+  Error error = bytes.error();
+  error.message = io::printable(path) + ": " + error.message;
+  return error;
+} catch (const std::bad_alloc&) {
+  return Error{ErrorCode::kOutOfMemory, io::printable(path) + ": not enough memory to write it"};
 }
 
 }  // namespace geotherm

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -62,6 +63,15 @@ std::optional<std::uint64_t> room_for(const std::string& path);
 /// Writes `bytes` beside `path` and renames: `path` is there whole or not at all. "-" is standard
 /// output. Errors (kBadFile) carry the path and the system's reason; the temporary is removed.
 Result<void> write_file(const std::string& path, std::string_view bytes);
+
+/// Whether `path` is "-" or has one of the extensions that `known` lists (".csv .npy"). `of`: " for
+/// a grid", or empty. Errors: kNotAvailable, with the path and the list.
+Result<void> check_written(const std::string& path, const std::string& known,
+                           const std::string& of = {});
+
+/// Makes the bytes and writes them. Errors: those of both, with the path, and kOutOfMemory.
+Result<void> write_made(const std::string& path,
+                        const std::function<Result<std::string>()>& make_bytes);
 
 /// Files that are of use together alone. While this lives, remove_unfinished_files() removes them,
 /// whole or not.

@@ -60,10 +60,8 @@ MaskNumbers numbers_in_label(std::string_view text) {
   scanner.now_reading("the header");
   if (scanner.peek().starts_with('#')) scanner.skip_line();
   const std::int64_t count = scanner.integer();
-  if (count < 0 || static_cast<std::uint64_t>(count) > (scanner.bytes_left() + 1) / 2) {
-    scanner.fail("the header announces " + std::to_string(count) + " vertices, but only " +
-                 std::to_string(scanner.bytes_left()) + " bytes follow");
-  }
+  checked_count(scanner, count, "vertices", (scanner.bytes_left() + 1) / 2,
+                "the header announces ");
   for (std::int64_t i = 0; i < count; ++i) {
     scanner.skip_line();
     scanner.now_reading("line", i + 1, count);
@@ -72,31 +70,17 @@ MaskNumbers numbers_in_label(std::string_view text) {
   return out;
 }
 
-template <class T>
-void append_numbers(std::string_view bytes, std::endian order, std::vector<double>& out) {
-  for (std::size_t at = 0; at + sizeof(T) <= bytes.size(); at += sizeof(T)) {
-    out.push_back(static_cast<double>(load<T>(bytes.data() + at, order)));
-  }
-}
-
 MaskNumbers numbers_in_npy(std::string_view bytes) {
   const NpyHeader header = read_npy_header(bytes);
   MaskNumbers out;
   out.flags = header.type == "b1";
   const std::string_view data = bytes.substr(header.begins);
-  const std::pair<std::string_view, void (*)(std::string_view, std::endian, std::vector<double>&)>
-      kTypes[] = {{"b1", append_numbers<std::uint8_t>}, {"u1", append_numbers<std::uint8_t>},
-                  {"i1", append_numbers<std::int8_t>},  {"u2", append_numbers<std::uint16_t>},
-                  {"i2", append_numbers<std::int16_t>}, {"u4", append_numbers<std::uint32_t>},
-                  {"i4", append_numbers<std::int32_t>}, {"u8", append_numbers<std::uint64_t>},
-                  {"i8", append_numbers<std::int64_t>}, {"f4", append_numbers<float>},
-                  {"f8", append_numbers<double>}};
-  const auto* const type = std::ranges::find(kTypes, header.type, [](auto& t) { return t.first; });
-  if (type == std::end(kTypes)) {
+  const auto type = number_type_of(header);
+  if (!type) {
     fail_at_byte(bytes, bytes.data() + header.type_place,
                  "numbers of the type " + printable(header.type) + " are no mask");
   }
-  type->second(data, header.order, out.values);
+  out.values = decode_numbers(data, data.size() / size_of(*type), *type, header.order);
   std::int64_t count = 1;
   for (const std::int64_t length : header.shape) {
     const auto most = static_cast<std::int64_t>(bytes.size());
@@ -203,7 +187,7 @@ Result<Mask> read_mask(const std::string& text, const TriangleMesh& mesh) {
   const io::MaskText what = io::parse_mask_text(text);
   const auto file = io::InputFile::open_as_is(what.path);
   if (!file) return file.error();
-  return io::guarded_read(io::printable(what.path), "mask", file->size(), [&]() -> Result<Mask> {
+  return io::read_unchanged(*file, file->shown(), "mask", [&]() -> Result<Mask> {
     const io::FileBytes bytes(*file);
     const std::string extension = io::file_extension(what.path);
     const io::MaskNumbers numbers = io::read_mask_numbers(bytes.bytes(), extension, what.property);

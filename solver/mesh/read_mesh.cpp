@@ -97,21 +97,10 @@ Result<PolygonFile> polygon_file(const std::string& name, io::RawMesh raw) {
 template <class File>
 Result<File> read_file(Result<File> (*finish)(const std::string&, io::RawMesh),
                        const io::InputFile& file) {
-  const auto* const reader =
-      std::ranges::find(kMeshReaders, file.extension(), &MeshReader::extension);
-  if (reader == std::end(kMeshReaders)) {
-    const std::string cause = file.extension().empty()
-                                  ? "neither its name nor its first bytes say what it is"
-                                  : "unknown extension \"" + io::printable(file.extension()) + "\"";
-    return Error{ErrorCode::kNotAvailable,
-                 file.shown() + ": " + cause,
-                 {"there are " + io::extensions_holding(io::kFaces)}};
-  }
-  auto mesh = io::guarded_read(file.shown(), "mesh", file.size(),
-                               [&] { return finish(file.shown(), reader->read(file)); });
-  // Before what was wrong in it: it may have been half of what it is to be.
-  if (auto same = file.check_unchanged(); !same) return same.error();
-  return mesh;
+  const MeshReader* const reader = io::format_of(kMeshReaders, file.extension());
+  if (reader == nullptr) return io::unknown_model(file, "", io::kFaces);
+  return io::read_unchanged(file, file.shown(), "mesh",
+                            [&] { return finish(file.shown(), reader->read(file)); });
 }
 
 }  // namespace

@@ -2,51 +2,20 @@
 #include "geotherm/io.h"
 
 #include <algorithm>
-#include <new>
-#include <utility>
 
 #include "solver/core/text.h"
 #include "solver/mesh/io/format_writers.h"
 #include "solver/mesh/output_file.h"
 
 namespace geotherm {
-namespace {
-
-Error unknown_extension(const std::string& path, const std::string& known) {
-  return {ErrorCode::kNotAvailable,
-          io::printable(path) + ": unknown extension \"" + io::printable(io::file_extension(path)) +
-              "\"",
-          {"there are " + known}};
-}
-
-/// Makes the bytes and writes them; building them may need more memory than there is.
-template <class MakeBytes>
-Result<void> write_made(const std::string& path, const MakeBytes& make_bytes) {
-  try {
-    const Result<std::string> bytes = make_bytes();
-    if (bytes) return write_file(path, *bytes);
-    Error error = bytes.error();
-    error.message = io::printable(path) + ": " + error.message;
-    return error;
-  } catch (const std::bad_alloc&) {
-    return Error{ErrorCode::kOutOfMemory, io::printable(path) + ": not enough memory to write it"};
-  }
-}
-
-}  // namespace
-
 Result<void> check_distance_path(const std::string& path) {
-  if (path == "-") return {};
   const std::string extension = io::file_extension(path);
-  for (const char* const known : {".csv", ".npy", ".ply", ".vtp"}) {
-    if (extension == known) return {};
-  }
   if (extension == ".obj" || extension == ".off" || extension == ".stl") {
     return Error{ErrorCode::kNotAvailable,
                  io::printable(path) + ": " + extension + " holds no value per vertex",
                  {"write .ply or .vtp (mesh and distance) or .csv or .npy (distance alone)"}};
   }
-  return unknown_extension(path, ".csv .npy .ply .vtp");
+  return check_written(path, ".csv .npy .ply .vtp");
 }
 
 Result<void> check_field(const std::string& path, const DataField& field) {
@@ -90,12 +59,7 @@ Result<void> write_distances(const std::string& path, const TriangleMesh& mesh,
 }
 
 Result<void> check_mesh_path(const std::string& path) {
-  if (path == "-") return {};
-  const std::string extension = io::file_extension(path);
-  for (const char* const known : {".obj", ".ply", ".off", ".stl"}) {
-    if (extension == known) return {};
-  }
-  return unknown_extension(path, ".obj .ply .off .stl");
+  return check_written(path, ".obj .ply .off .stl");
 }
 
 Result<void> write_mesh(const std::string& path, const TriangleMesh& mesh) {

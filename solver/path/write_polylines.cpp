@@ -2,17 +2,14 @@
 #include "geotherm/path.h"
 
 #include <algorithm>
-#include <new>
 #include <utility>
 
 #include "solver/core/text.h"
-#include "solver/mesh/io/byte_order.h"
+#include "solver/mesh/io/vtk_writer.h"
 #include "solver/mesh/output_file.h"
 
 namespace geotherm {
 namespace {
-
-using io::append_little;
 
 /// Points of the line that differ: a closed one comes back to its first.
 std::size_t point_count(const SurfacePath& path) {
@@ -53,17 +50,6 @@ std::string obj_bytes(const TriangleMesh& mesh, std::span<const Polyline> lines)
   return text + elements;
 }
 
-/// Arrays of one VTK piece, appended raw after the XML that says where each begins.
-class VtpArrays {
- public:
-  std::string declare(const std::string& attributes, std::uint64_t bytes) {
-    const std::string start = std::to_string(data.size());
-    append_little(data, bytes);
-    return "<DataArray " + attributes + " format=\"appended\" offset=\"" + start + "\"/>\n";
-  }
-  std::string data;
-};
-
 std::string vtp_bytes(const TriangleMesh& mesh, std::span<const Polyline> lines) {
   std::uint64_t points = 0, entries = 0;
   for (const Polyline& line : lines) {
@@ -71,46 +57,46 @@ std::string vtp_bytes(const TriangleMesh& mesh, std::span<const Polyline> lines)
     entries += line.path->points.size();
   }
   const std::uint64_t count = lines.size();
-  VtpArrays arrays;
-  std::string xml =
-      "<?xml version=\"1.0\"?>\n<VTKFile type=\"PolyData\" version=\"1.0\" "
-      "byte_order=\"LittleEndian\" header_type=\"UInt64\">\n<PolyData>\n<Piece NumberOfPoints=\"" +
-      std::to_string(points) + "\" NumberOfVerts=\"0\" NumberOfLines=\"" + std::to_string(count) +
-      "\" NumberOfStrips=\"0\" NumberOfPolys=\"0\">\n<Points>\n";
-  xml += arrays.declare("type=\"Float64\" Name=\"Points\" NumberOfComponents=\"3\"", 24 * points);
-  for (const Polyline& line : lines) {
-    for (std::size_t i = 0; i < point_count(*line.path); ++i) {
-      const Vec3 p = position_at(mesh, line.path->points[i]);
-      for (int axis = 0; axis < 3; ++axis) append_little(arrays.data, p[axis]);
+  const std::string piece = "NumberOfPoints=\"" + std::to_string(points) +
+                            "\" NumberOfVerts=\"0\" NumberOfLines=\"" + std::to_string(count) +
+                            "\" NumberOfStrips=\"0\" NumberOfPolys=\"0\"";
+  return io::vtk_bytes("PolyData", "", piece, [&](io::VtkWriter& file) {
+    file.points(points, [&](const auto& use) {
+      for (const Polyline& line : lines) {
+        for (std::size_t i = 0; i < point_count(*line.path); ++i) {
+          use(position_at(mesh, line.path->points[i]));
+        }
+      }
+    });
+    file.text("<Lines>\n");
+    file.array<std::int64_t>("connectivity", entries, [&](const auto& put) {
+      std::int64_t first = 0;
+      for (const Polyline& line : lines) {
+        const auto distinct = static_cast<std::int64_t>(point_count(*line.path));
+        for (std::size_t i = 0; i < line.path->points.size(); ++i) {
+          put(first + static_cast<std::int64_t>(i) % distinct);
+        }
+        first += distinct;
+      }
+    });
+    file.array<std::int64_t>("offsets", count, [&](const auto& put) {
+      std::int64_t end = 0;
+      for (const Polyline& line : lines) put(end += std::ssize(line.path->points));
+    });
+    file.text("</Lines>\n<CellData>\n");
+    file.array<double>("length", count, [&](const auto& put) {
+      for (const Polyline& line : lines) put(line.path->length);
+    });
+    file.array<std::int32_t>("closed", count, [&](const auto& put) {
+      for (const Polyline& line : lines) put(line.path->closed);
+    });
+    if (have_values(lines)) {
+      file.array<double>("value", count, [&](const auto& put) {
+        for (const Polyline& line : lines) put(line.value.value_or(0));
+      });
     }
-  }
-  xml +=
-      "</Points>\n<Lines>\n" + arrays.declare("type=\"Int64\" Name=\"connectivity\"", 8 * entries);
-  std::int64_t first = 0;
-  for (const Polyline& line : lines) {
-    const auto distinct = static_cast<std::int64_t>(point_count(*line.path));
-    for (std::size_t i = 0; i < line.path->points.size(); ++i) {
-      append_little(arrays.data, first + static_cast<std::int64_t>(i) % distinct);
-    }
-    first += distinct;
-  }
-  xml += arrays.declare("type=\"Int64\" Name=\"offsets\"", 8 * count);
-  std::int64_t end = 0;
-  for (const Polyline& line : lines) {
-    append_little(arrays.data, end += static_cast<std::int64_t>(line.path->points.size()));
-  }
-  xml += "</Lines>\n<CellData>\n" + arrays.declare("type=\"Float64\" Name=\"length\"", 8 * count);
-  for (const Polyline& line : lines) append_little(arrays.data, line.path->length);
-  xml += arrays.declare("type=\"Int32\" Name=\"closed\"", 4 * count);
-  for (const Polyline& line : lines) {
-    append_little(arrays.data, static_cast<std::int32_t>(line.path->closed));
-  }
-  if (have_values(lines)) {
-    xml += arrays.declare("type=\"Float64\" Name=\"value\"", 8 * count);
-    for (const Polyline& line : lines) append_little(arrays.data, line.value.value_or(0));
-  }
-  xml += "</CellData>\n</Piece>\n</PolyData>\n<AppendedData encoding=\"raw\">\n_";
-  return xml + arrays.data + "\n</AppendedData>\n</VTKFile>\n";
+    file.text("</CellData>\n");
+  });
 }
 
 }  // namespace
@@ -144,14 +130,14 @@ std::string polyline_csv(const TriangleMesh& mesh, std::span<const Polyline> lin
 }
 
 Result<void> write_polylines(const std::string& path, const TriangleMesh& mesh,
-                             std::span<const Polyline> lines) try {
+                             std::span<const Polyline> lines) {
   if (auto known = check_polyline_path(path); !known) return known;
   const std::string extension = io::file_extension(path);
-  if (extension == ".obj") return write_file(path, obj_bytes(mesh, lines));
-  if (extension == ".vtp") return write_file(path, vtp_bytes(mesh, lines));
-  return write_file(path, polyline_csv(mesh, lines));
-} catch (const std::bad_alloc&) {
-  return Error{ErrorCode::kOutOfMemory, io::printable(path) + ": not enough memory to write it"};
+  return write_made(path, [&] {
+    if (extension == ".obj") return obj_bytes(mesh, lines);
+    if (extension == ".vtp") return vtp_bytes(mesh, lines);
+    return polyline_csv(mesh, lines);
+  });
 }
 
 }  // namespace geotherm

@@ -27,23 +27,6 @@ constexpr PointFormat kPointFormats[] = {{kPly, io::read_ply_points},
                                          {".pts", io::read_pts_points},
                                          {".pcd", io::read_pcd_points}};
 
-const PointFormat* point_format_of(std::string_view extension) {
-  const auto found = std::ranges::find(kPointFormats, extension, &PointFormat::extension);
-  return found == std::end(kPointFormats) ? nullptr : found;
-}
-
-Result<PointFile> parse_points(const std::string& shown, const io::InputFile& file,
-                               const PointFormat& format) {
-  return io::guarded_read(shown, "points", file.size(), [&]() -> Result<PointFile> {
-    io::RawPoints raw = format.read(io::FileBytes(file).bytes());
-    auto points = PointCloud::build(std::move(raw.positions), std::move(raw.normals));
-    if (!points) {
-      return Error{ErrorCode::kBadFile, shown + ": " + points.error().message, points.error().hint};
-    }
-    return PointFile{*std::move(points), std::move(raw.notes)};
-  });
-}
-
 /// The header of a PLY file, from as much of the file as it takes. Throws ReadFailure.
 bool has_no_faces(const io::InputFile& file) {
   constexpr std::string_view kEnd = "end_header";
@@ -69,17 +52,15 @@ std::vector<std::string> point_formats() { return io::formats_holding(io::kPoint
 
 Result<PointFile> read_points(const ModelInput& input) {
   const io::InputFile& file = input.file();
-  const PointFormat* const format = point_format_of(file.extension());
-  if (format == nullptr) {
-    return Error{
-        ErrorCode::kNotAvailable,
-        file.shown() + ": unknown extension \"" + io::printable(file.extension()) + "\" of points",
-        {"there are " + io::extensions_holding(io::kPoints)}};
-  }
-  auto points = parse_points(file.shown(), file, *format);
-  // Before what was wrong in it: it may have been half of what it is to be.
-  if (auto same = file.check_unchanged(); !same) return same.error();
-  return points;
+  const PointFormat* const format = io::format_of(kPointFormats, file.extension());
+  if (format == nullptr) return io::unknown_model(file, " of points", io::kPoints);
+  return io::read_unchanged(file, file.shown(), "points", [&]() -> Result<PointFile> {
+    io::RawPoints raw = format->read(io::FileBytes(file).bytes());
+    auto points = PointCloud::build(std::move(raw.positions), std::move(raw.normals));
+    if (points) return PointFile{*std::move(points), std::move(raw.notes)};
+    return Error{ErrorCode::kBadFile, file.shown() + ": " + points.error().message,
+                 points.error().hint};
+  });
 }
 
 Result<PointFile> read_points(const std::string& path) {
@@ -89,7 +70,7 @@ Result<PointFile> read_points(const std::string& path) {
 
 Result<bool> is_point_file(const ModelInput& input) {
   const io::InputFile& file = input.file();
-  if (file.extension() != kPly) return point_format_of(file.extension()) != nullptr;
+  if (file.extension() != kPly) return io::format_of(kPointFormats, file.extension()) != nullptr;
   try {
     return has_no_faces(file);
   } catch (const io::ReadFailure&) {
@@ -101,7 +82,9 @@ Result<bool> is_point_file(const ModelInput& input) {
 
 Result<bool> is_point_file(const std::string& path) {
   const std::string extension = io::model_extension(path);
-  if (extension != kPly && !extension.empty()) return point_format_of(extension) != nullptr;
+  if (extension != kPly && !extension.empty()) {
+    return io::format_of(kPointFormats, extension) != nullptr;
+  }
   const auto input = ModelInput::open(path);
   return input ? is_point_file(*input) : input.error();
 }

@@ -28,11 +28,6 @@ constexpr TetFormat kTetFormats[] = {
     {".ele", nullptr, {}},
 };
 
-const TetFormat* tet_format_of(std::string_view extension) {
-  const auto* const found = std::ranges::find(kTetFormats, extension, &TetFormat::extension);
-  return found == std::end(kTetFormats) ? nullptr : found;
-}
-
 Result<TetFile> finish_tets(const std::string& name, io::RawElements raw) {
   const std::string others = text_of_others(raw);
   if (raw.tets.empty()) {
@@ -53,15 +48,12 @@ Result<TetFile> finish_tets(const std::string& name, io::RawElements raw) {
   return TetFile{*std::move(mesh), std::move(raw.notes)};
 }
 
-/// The bytes of a file are given to `read`; what they hold, or the file itself changed.
+/// What `read` makes of the bytes of a file.
 template <class Read>
-auto read_bytes_of(const io::InputFile& file, const Read& read)
-    -> Result<decltype(read(std::string_view()))> {
+auto read_bytes_of(const io::InputFile& file, const Read& read) {
   using Made = Result<decltype(read(std::string_view()))>;
-  auto made = io::guarded_read(file.shown(), "volume", file.size(),
-                               [&]() -> Made { return read(io::FileBytes(file).bytes()); });
-  if (auto same = file.check_unchanged(); !same) return same.error();
-  return made;
+  return io::read_unchanged(file, file.shown(), "volume",
+                            [&]() -> Made { return read(io::FileBytes(file).bytes()); });
 }
 
 /// The same path with the extension that the partner has, in capitals where this one is, and as
@@ -114,13 +106,8 @@ std::vector<std::string> tet_formats() { return io::formats_holding(io::kTets); 
 
 Result<TetFile> read_tets(const ModelInput& input) {
   const io::InputFile& file = input.file();
-  const TetFormat* const format = tet_format_of(file.extension());
-  if (format == nullptr) {
-    return Error{
-        ErrorCode::kNotAvailable,
-        file.shown() + ": unknown extension \"" + io::printable(file.extension()) + "\" of tets",
-        {"there are " + io::extensions_holding(io::kTets)}};
-  }
+  const TetFormat* const format = io::format_of(kTetFormats, file.extension());
+  if (format == nullptr) return io::unknown_model(file, " of tets", io::kTets);
   if (format->read == nullptr) return read_tetgen(file);
   auto raw = read_bytes_of(file, format->read);
   if (!raw) return raw.error();
@@ -135,7 +122,7 @@ Result<TetFile> read_tets(const std::string& path) {
 bool holds_tets(const ModelInput& input) {
   constexpr std::size_t kLooked = 4096;
   const io::InputFile& file = input.file();
-  const TetFormat* const format = tet_format_of(file.extension());
+  const TetFormat* const format = io::format_of(kTetFormats, file.extension());
   if (format == nullptr || format->begins.empty()) return format != nullptr;
   try {
     std::string start = file.start(kLooked);

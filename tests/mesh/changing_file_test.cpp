@@ -4,10 +4,17 @@
 #include <unistd.h>
 
 #include <atomic>
+#include <chrono>
+#include <fstream>
+#include <functional>
 #include <random>
+#include <string>
 #include <thread>
+#include <utility>
 
+#include "geotherm/domains.h"
 #include "geotherm/io.h"
+#include "solver/distributed/mesh_part.h"
 #include "tests/mesh/mesh_files.h"
 
 namespace geotherm::test {
@@ -67,6 +74,53 @@ TEST_P(ChangingFile, IsAMeshOrOneLineOfErrorWhileItIsTruncatedByAParallelThread)
 INSTANTIATE_TEST_SUITE_P(EveryFormat, ChangingFile,
                          testing::Values("a.obj", "a.ply", "a.off", "a.stl"),
                          [](const auto& test) { return std::string(test.param).substr(2); });
+
+/// What is said of a file to which another thread appends blank lines all the while: that it was
+/// changed, or what was said last after some seconds.
+std::string said_of_growing(const std::string& path, const std::function<std::string()>& read) {
+  constexpr std::chrono::seconds kMost(10);
+  std::atomic<bool> ended = false;
+  std::thread writer([&] {
+    std::ofstream file(path, std::ios::app);
+    while (!ended) file.put('\n').flush();
+  });
+  std::string said;
+  const auto last = std::chrono::steady_clock::now() + kMost;
+  do {
+    said = read();
+  } while (said.find("was changed") == said.npos && std::chrono::steady_clock::now() < last);
+  ended = true;
+  writer.join();
+  return said;
+}
+
+TEST(GrowingFiles, AreSaidToChangeBeforeWhatIsWrongInThem) {
+  const TemporaryDirectory folder;
+  const std::string header =
+      "NRRD0004\ntype: uint8\ndimension: 2\nsizes: 30000 30000\nencoding: raw\n";
+  const auto triangle =
+      TriangleMesh::build({Vec3::Zero(), Vec3::UnitX(), Vec3::UnitY()}, {{0, 1, 2}});
+  ASSERT_TRUE(triangle);
+  const std::string image = folder.write("a.nrrd", header + "\n1");
+  const std::string outside = folder.write("b.nhdr", header + "data file: b.raw\n\n");
+  const std::string samples = folder.write("b.raw", "1");
+  const std::string mask = folder.write("c.txt", "7 8 9\n");
+  const std::string part = folder.write(
+      "d.ply",
+      "ply\nformat binary_little_endian 1.0\nelement vertex 900000000\nproperty double x\n"
+      "property double y\nproperty double z\nelement face 1\n"
+      "property list uchar int vertex_indices\nend_header\n1");
+  const std::pair<std::string, std::function<std::string()>> reads[] = {
+      {image, [&] { return sentence(read_grid(image).error()); }},
+      {samples, [&] { return sentence(read_grid(outside).error()); }},
+      {mask, [&] { return sentence(read_mask(mask, *triangle).error()); }},
+      {part, [&] { return sentence(read_ply_slice(part, 0, 2).error()); }},
+  };
+  for (const auto& [path, read] : reads) {
+    const std::string said = said_of_growing(path, read);
+    EXPECT_TRUE(said.starts_with(path + ": was changed while it was read")) << said;
+  }
+}
 
 TEST(ObjPieces, GiveTheMeshOfTheWholeWhereverLinesEnd) {
   std::mt19937_64 random(3);

@@ -74,7 +74,7 @@ const std::vector<Permission>& permissions() {
       {"solver/path", path, {"std", "eigen"}, {}},
       {"solver/polyhedral", polyhedral, {"std", "eigen"}, {}},
       {"solver/volume", volume, {"std", "eigen"}, {}},
-      {"solver/grid", with(volume, {"solver/grid"}), {"std", "eigen"}, {"zlib", "png"}},
+      {"solver/grid", with(volume, {"solver/grid"}), {"std", "eigen"}, {"png"}},
       {"solver/heat", heat, {"std", "eigen"}, {}},
       {"solver/directions", directions, {"std", "eigen"}, {}},
       {"solver/accuracy", accuracy, {"std", "eigen"}, {}},

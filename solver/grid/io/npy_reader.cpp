@@ -11,19 +11,8 @@
 namespace geotherm::io {
 namespace {
 
-constexpr struct {
-  std::string_view name;
-  VtkType type;
-} kNpyTypes[] = {{"b1", VtkType::kUint8},   {"u1", VtkType::kUint8},  {"i1", VtkType::kInt8},
-                 {"u2", VtkType::kUint16},  {"i2", VtkType::kInt16},  {"u4", VtkType::kUint32},
-                 {"i4", VtkType::kInt32},   {"u8", VtkType::kUint64}, {"i8", VtkType::kInt64},
-                 {"f4", VtkType::kFloat32}, {"f8", VtkType::kFloat64}};
-
-/// The entry of kNpyTypes.
-const auto& type_of(std::string_view bytes, const NpyHeader& header) {
-  const auto* const known =
-      std::ranges::find_if(kNpyTypes, [&](const auto& each) { return each.name == header.type; });
-  if (known != std::end(kNpyTypes)) return *known;
+NumberType type_of(std::string_view bytes, const NpyHeader& header) {
+  if (const auto type = number_type_of(header)) return *type;
   const char* const at = bytes.data() + header.type_place;
   fail_at_byte(bytes, at, "the type of numbers " + quoted(bytes, at) + " cannot be read",
                {"save booleans, whole numbers, float32 or float64"});
@@ -32,7 +21,7 @@ const auto& type_of(std::string_view bytes, const NpyHeader& header) {
 /// What stands behind the header. Throws where it is more, or less.
 std::vector<double> numbers_behind(std::string_view bytes, const NpyHeader& header,
                                    std::size_t count) {
-  const VtkType type = type_of(bytes, header).type;
+  const NumberType type = type_of(bytes, header);
   const std::size_t each = size_of(type), wanted = count * each;
   const std::size_t there = bytes.size() - header.begins;
   if (there > wanted) {
@@ -74,7 +63,7 @@ RawGrid read_npy(std::string_view bytes) {
   grid.three_axes = header.shape.size() == 3;
   grid.values = numbers_behind(bytes, header, count_samples(grid.size));
   if (header.fortran) grid.values = in_c_order(grid.values, grid.size);
-  grid.type = type.name == "b1" ? RawGrid::Values::kBooleans : values_of(type.type);
+  grid.type = header.type == "b1" ? RawGrid::Values::kBooleans : values_of(type);
   return grid;
 }
 

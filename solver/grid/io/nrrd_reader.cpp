@@ -1,15 +1,13 @@
 // SPDX-License-Identifier: MIT
 // Nearly raw raster data (Teem: https://teem.sourceforge.net/nrrd/format.html): lines of text up to
 // an empty one, then the samples, or in a file of their own. The first axis is the fastest.
-#include <zlib.h>
-
 #include <algorithm>
 #include <cmath>
-#include <new>
 #include <utility>
 
 #include "solver/core/text.h"
 #include "solver/grid/io/raw_grid.h"
+#include "solver/mesh/io/gzip.h"
 #include "solver/mesh/io/input_file.h"
 #include "solver/mesh/io/text_scanner.h"
 
@@ -18,48 +16,48 @@ namespace {
 
 constexpr struct {
   std::string_view name;
-  VtkType type;
+  NumberType type;
 } kNrrdTypes[] = {
-    {"signed char", VtkType::kInt8},
-    {"int8", VtkType::kInt8},
-    {"int8_t", VtkType::kInt8},
-    {"uchar", VtkType::kUint8},
-    {"unsigned char", VtkType::kUint8},
-    {"uint8", VtkType::kUint8},
-    {"uint8_t", VtkType::kUint8},
-    {"short", VtkType::kInt16},
-    {"short int", VtkType::kInt16},
-    {"signed short", VtkType::kInt16},
-    {"signed short int", VtkType::kInt16},
-    {"int16", VtkType::kInt16},
-    {"int16_t", VtkType::kInt16},
-    {"ushort", VtkType::kUint16},
-    {"unsigned short", VtkType::kUint16},
-    {"unsigned short int", VtkType::kUint16},
-    {"uint16", VtkType::kUint16},
-    {"uint16_t", VtkType::kUint16},
-    {"int", VtkType::kInt32},
-    {"signed int", VtkType::kInt32},
-    {"int32", VtkType::kInt32},
-    {"int32_t", VtkType::kInt32},
-    {"uint", VtkType::kUint32},
-    {"unsigned int", VtkType::kUint32},
-    {"uint32", VtkType::kUint32},
-    {"uint32_t", VtkType::kUint32},
-    {"longlong", VtkType::kInt64},
-    {"long long", VtkType::kInt64},
-    {"long long int", VtkType::kInt64},
-    {"signed long long", VtkType::kInt64},
-    {"signed long long int", VtkType::kInt64},
-    {"int64", VtkType::kInt64},
-    {"int64_t", VtkType::kInt64},
-    {"ulonglong", VtkType::kUint64},
-    {"unsigned long long", VtkType::kUint64},
-    {"unsigned long long int", VtkType::kUint64},
-    {"uint64", VtkType::kUint64},
-    {"uint64_t", VtkType::kUint64},
-    {"float", VtkType::kFloat32},
-    {"double", VtkType::kFloat64},
+    {"signed char", NumberType::kInt8},
+    {"int8", NumberType::kInt8},
+    {"int8_t", NumberType::kInt8},
+    {"uchar", NumberType::kUint8},
+    {"unsigned char", NumberType::kUint8},
+    {"uint8", NumberType::kUint8},
+    {"uint8_t", NumberType::kUint8},
+    {"short", NumberType::kInt16},
+    {"short int", NumberType::kInt16},
+    {"signed short", NumberType::kInt16},
+    {"signed short int", NumberType::kInt16},
+    {"int16", NumberType::kInt16},
+    {"int16_t", NumberType::kInt16},
+    {"ushort", NumberType::kUint16},
+    {"unsigned short", NumberType::kUint16},
+    {"unsigned short int", NumberType::kUint16},
+    {"uint16", NumberType::kUint16},
+    {"uint16_t", NumberType::kUint16},
+    {"int", NumberType::kInt32},
+    {"signed int", NumberType::kInt32},
+    {"int32", NumberType::kInt32},
+    {"int32_t", NumberType::kInt32},
+    {"uint", NumberType::kUint32},
+    {"unsigned int", NumberType::kUint32},
+    {"uint32", NumberType::kUint32},
+    {"uint32_t", NumberType::kUint32},
+    {"longlong", NumberType::kInt64},
+    {"long long", NumberType::kInt64},
+    {"long long int", NumberType::kInt64},
+    {"signed long long", NumberType::kInt64},
+    {"signed long long int", NumberType::kInt64},
+    {"int64", NumberType::kInt64},
+    {"int64_t", NumberType::kInt64},
+    {"ulonglong", NumberType::kUint64},
+    {"unsigned long long", NumberType::kUint64},
+    {"unsigned long long int", NumberType::kUint64},
+    {"uint64", NumberType::kUint64},
+    {"uint64_t", NumberType::kUint64},
+    {"float", NumberType::kFloat32},
+    {"double", NumberType::kFloat64},
 };
 
 class NrrdHeaderReader {
@@ -266,26 +264,7 @@ std::string unzipped(std::string_view packed, std::size_t bytes) {
   }
   // One byte more than there are to be, so that the stream is read to its end, its checksum.
   std::string out(bytes + 1, '\0');
-  z_stream stream{};
-  constexpr int kGzip = 16 + MAX_WBITS;
-  if (inflateInit2(&stream, kGzip) != Z_OK) throw std::bad_alloc();
-  constexpr std::size_t kMaxAtOnce = 1 << 30;
-  std::size_t taken = 0, made = 0;
-  int code = Z_OK;
-  while (code == Z_OK && made < out.size()) {
-    stream.next_in =
-        reinterpret_cast<Bytef*>(const_cast<char*>(packed.data() + taken));  // zlib's own const
-    stream.avail_in = static_cast<uInt>(std::min(kMaxAtOnce, packed.size() - taken));
-    stream.next_out = reinterpret_cast<Bytef*>(out.data() + made);
-    stream.avail_out = static_cast<uInt>(std::min(kMaxAtOnce, out.size() - made));
-    const uInt in = stream.avail_in, room = stream.avail_out;
-    code = inflate(&stream, Z_NO_FLUSH);
-    taken += in - stream.avail_in;
-    made += room - stream.avail_out;
-    if (in == stream.avail_in && room == stream.avail_out) break;
-  }
-  inflateEnd(&stream);
-  if (code == Z_MEM_ERROR) throw std::bad_alloc();
+  const auto [made, ended] = unpack_gzip_stream(packed, out.data(), out.size());
   if (made < bytes) {
     throw ReadFailure{"the compressed samples are damaged or too few: " + std::to_string(made) +
                       " bytes of " + std::to_string(bytes)};
@@ -294,7 +273,7 @@ std::string unzipped(std::string_view packed, std::size_t bytes) {
     throw ReadFailure{"there are to be " + std::to_string(bytes) +
                       " bytes, but the compressed samples are more"};
   }
-  if (code != Z_STREAM_END) {
+  if (!ended) {
     throw ReadFailure{"the compressed samples are cut off or damaged behind their " +
                       std::to_string(bytes) + " bytes: " + std::to_string(packed.size()) +
                       " compressed ones do not end with their checksum"};

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "geotherm/types.h"
-#include "solver/mesh/io/vtk_cells.h"
+#include "solver/mesh/io/number_type.h"
 
 namespace geotherm::io {
 
@@ -35,11 +35,11 @@ struct RawGrid {
 std::size_t count_samples(const std::array<std::int64_t, 3>& size);
 
 /// So many numbers of a type, which the bytes must hold.
-std::vector<double> decode_samples(std::string_view bytes, std::size_t count, VtkType type,
+std::vector<double> decode_samples(std::string_view bytes, std::size_t count, NumberType type,
                                    std::endian order);
 
 /// Whether numbers of the type are whole.
-RawGrid::Values values_of(VtkType type);
+RawGrid::Values values_of(NumberType type);
 
 RawGrid read_npy(std::string_view bytes);
 /// An array with one axis, or the rows of one with two, one after the other.
@@ -56,7 +56,7 @@ struct NrrdHeader {
   enum class Encoding { kRaw, kGzip, kText };
 
   RawGrid grid;  ///< without values
-  VtkType type = VtkType::kUint8;
+  NumberType type = NumberType::kUint8;
   std::endian order = std::endian::little;
   Encoding encoding = Encoding::kRaw;
   std::string data_file;        ///< beside the header; empty: in the same file

@@ -10,6 +10,7 @@
 #include <limits>
 
 #include "solver/mesh/io/byte_order.h"
+#include "solver/mesh/io/vtk_writer.h"
 
 namespace geotherm::io {
 namespace {
@@ -94,30 +95,13 @@ std::string off_bytes(const TriangleMesh& mesh) {
 
 namespace {
 
-void append_little(std::string& bytes, const Vec3& p) {
-  for (int axis = 0; axis < 3; ++axis) io::append_little(bytes, p[axis]);
-}
-
-void append_faces(std::string& bytes, const Face& face) {
-  for (const Index corner : face) io::append_little(bytes, corner);
-}
-
 constexpr auto kOnVertices = DataField::Place::kVertices;
 constexpr auto kOnFaces = DataField::Place::kFaces;
 
 bool is_small(const DataField& field) { return field.type == DataField::Type::kUint8; }
 
-/// The value of one element in every field that has one there.
-void append_fields(std::string& bytes, std::span<const DataField> fields, DataField::Place place,
-                   std::size_t i) {
-  for (const DataField& field : fields) {
-    if (field.place != place) continue;
-    if (is_small(field)) {
-      io::append_little(bytes, static_cast<std::uint8_t>(field.values[i]));
-    } else {
-      io::append_little(bytes, field.values[i]);
-    }
-  }
+bool has_face_field(std::span<const DataField> fields) {
+  return std::ranges::any_of(fields, [](const DataField& each) { return each.place == kOnFaces; });
 }
 
 std::string ply_properties(std::span<const DataField> fields, DataField::Place place) {
@@ -127,18 +111,6 @@ std::string ply_properties(std::span<const DataField> fields, DataField::Place p
     text += (is_small(field) ? "property uchar " : "property double ") + field.name + '\n';
   }
   return text;
-}
-
-/// Bytes of all values.
-std::uint64_t length_of(const DataField& field) {
-  return field.values.size() * (is_small(field) ? 1 : sizeof(double));
-}
-
-void append_array(std::string& bytes, const DataField& field) {
-  io::append_little(bytes, length_of(field));
-  for (std::size_t i = 0; i < field.values.size(); ++i) {
-    append_fields(bytes, {&field, 1}, field.place, i);
-  }
 }
 
 }  // namespace
@@ -217,8 +189,7 @@ class PlyRows {
 std::string ply_bytes(const TriangleMesh& mesh, std::span<const double> distances,
                       std::span<const Index> nearest, std::span<const DataField> fields) {
   // Readers that take binary faces one array after the other lose those with further properties.
-  const bool ascii =
-      std::ranges::any_of(fields, [](const DataField& field) { return field.place == kOnFaces; });
+  const bool ascii = has_face_field(fields);
   std::string bytes = std::string("ply\nformat ") + (ascii ? "ascii" : "binary_little_endian") +
                       " 1.0\nelement vertex " + std::to_string(mesh.vertex_count()) +
                       "\nproperty double x\nproperty double y\nproperty double z\n";
@@ -229,7 +200,7 @@ std::string ply_bytes(const TriangleMesh& mesh, std::span<const double> distance
            "\nproperty list uchar int vertex_indices\n";
   bytes += ply_properties(fields, kOnFaces) + "end_header\n";
   std::size_t values = 0;
-  for (const DataField& field : fields) values += length_of(field);
+  for (const DataField& field : fields) values += field.values.size() * (is_small(field) ? 1 : 8);
   bytes.reserve(bytes.size() + 40 * mesh.positions().size() + 13 * mesh.faces().size() + values);
   const double largest = largest_finite(distances);
   PlyRows rows(bytes, ascii);
@@ -254,60 +225,31 @@ std::string ply_bytes(const TriangleMesh& mesh, std::span<const double> distance
 
 std::string vtp_bytes(const TriangleMesh& mesh, std::span<const double> distances,
                       std::span<const Index> nearest, std::span<const DataField> fields) {
-  const std::uint64_t vertices = mesh.positions().size();
-  const std::uint64_t faces = mesh.faces().size();
-  std::uint64_t offset = 0;
-  // Each array is appended as its length in bytes and its values; the XML holds where it starts.
-  const auto array = [&offset](const std::string& attributes, std::uint64_t length) {
-    const std::string start = std::to_string(offset);
-    offset += sizeof(std::uint64_t) + length;
-    return "<DataArray " + attributes + " format=\"appended\" offset=\"" + start + "\"/>\n";
-  };
-  const auto field_arrays = [&](DataField::Place place) {
-    std::string text;
-    for (const DataField& field : fields) {
-      if (field.place != place) continue;
-      const std::string type = is_small(field) ? "UInt8" : "Float64";
-      text += array("type=\"" + type + "\" Name=\"" + field.name + '"', length_of(field));
+  const std::uint64_t vertices = mesh.positions().size(), faces = mesh.faces().size();
+  const std::string piece = "NumberOfPoints=\"" + std::to_string(vertices) +
+                            "\" NumberOfVerts=\"0\" NumberOfLines=\"0\" NumberOfStrips=\"0\" "
+                            "NumberOfPolys=\"" +
+                            std::to_string(faces) + '"';
+  return vtk_bytes("PolyData", "", piece, [&](VtkWriter& file) {
+    file.text("<PointData Scalars=\"distance\">\n");
+    file.answers(distances, nearest);
+    file.fields(fields, kOnVertices);
+    file.text("</PointData>\n");
+    if (has_face_field(fields)) {
+      file.text("<CellData>\n");
+      file.fields(fields, kOnFaces);
+      file.text("</CellData>\n");
     }
-    return text;
-  };
-  const std::uint64_t lengths[] = {8 * vertices, 24 * vertices, 12 * faces, 8 * faces};
-  const std::uint64_t nearest_length = 4 * vertices;
-  std::string bytes =
-      "<?xml version=\"1.0\"?>\n<VTKFile type=\"PolyData\" version=\"1.0\" "
-      "byte_order=\"LittleEndian\" header_type=\"UInt64\">\n<PolyData>\n<Piece NumberOfPoints=\"" +
-      std::to_string(vertices) +
-      "\" NumberOfVerts=\"0\" NumberOfLines=\"0\" NumberOfStrips=\"0\" NumberOfPolys=\"" +
-      std::to_string(faces) + "\">\n<PointData Scalars=\"distance\">\n";
-  bytes += array("type=\"Float64\" Name=\"distance\"", lengths[0]);
-  if (!nearest.empty()) bytes += array("type=\"Int32\" Name=\"nearest_source\"", nearest_length);
-  bytes += field_arrays(kOnVertices) + "</PointData>\n";
-  const std::string on_faces = field_arrays(kOnFaces);
-  if (!on_faces.empty()) bytes += "<CellData>\n" + on_faces + "</CellData>\n";
-  bytes += "<Points>\n";
-  bytes += array("type=\"Float64\" Name=\"Points\" NumberOfComponents=\"3\"", lengths[1]);
-  bytes += "</Points>\n<Polys>\n";
-  bytes += array("type=\"Int32\" Name=\"connectivity\"", lengths[2]);
-  bytes += array("type=\"Int64\" Name=\"offsets\"", lengths[3]);
-  bytes += "</Polys>\n</Piece>\n</PolyData>\n<AppendedData encoding=\"raw\">\n_";
-  bytes.reserve(bytes.size() + offset + 64);
-  append_little(bytes, lengths[0]);
-  for (const double distance : distances) append_little(bytes, distance);
-  if (!nearest.empty()) append_little(bytes, nearest_length);
-  for (const Index source : nearest) append_little(bytes, source);
-  for (const auto place : {kOnVertices, kOnFaces}) {
-    for (const DataField& field : fields) {
-      if (field.place == place) append_array(bytes, field);
-    }
-  }
-  append_little(bytes, lengths[1]);
-  for (const Vec3& p : mesh.positions()) append_little(bytes, p);
-  append_little(bytes, lengths[2]);
-  for (const Face& face : mesh.faces()) append_faces(bytes, face);
-  append_little(bytes, lengths[3]);
-  for (std::uint64_t f = 1; f <= faces; ++f) append_little(bytes, 3 * f);
-  return bytes + "\n</AppendedData>\n</VTKFile>\n";
+    file.points(vertices, [&](const auto& use) { std::ranges::for_each(mesh.positions(), use); });
+    file.text("<Polys>\n");
+    file.array<std::int32_t>("connectivity", 3 * faces, [&](const auto& put) {
+      for (const Face& face : mesh.faces()) std::ranges::for_each(face, put);
+    });
+    file.array<std::int64_t>("offsets", faces, [&](const auto& put) {
+      for (std::uint64_t f = 1; f <= faces; ++f) put(static_cast<std::int64_t>(3 * f));
+    });
+    file.text("</Polys>\n");
+  });
 }
 
 Result<std::string> stl_bytes(const TriangleMesh& mesh) {

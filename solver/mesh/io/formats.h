@@ -3,7 +3,9 @@
 // help and dialogs share.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
+#include <iterator>
 #include <span>
 #include <string>
 #include <string_view>
@@ -33,5 +35,12 @@ std::string_view format_by_content(std::string_view start, std::size_t size);
 
 /// ".ply" of "a.ply" and of "a.ply.gz".
 std::string model_extension(std::string_view path);
+
+/// The entry of a table that has this `extension`, or null.
+template <class Format, std::size_t N>
+const Format* format_of(const Format (&table)[N], std::string_view extension) {
+  const Format* const found = std::ranges::find(table, extension, &Format::extension);
+  return found == std::end(table) ? nullptr : found;
+}
 
 }  // namespace geotherm::io

@@ -18,13 +18,13 @@ namespace {
 
 constexpr struct {
   std::string_view name;
-  VtkType type;
+  NumberType type;
 } kNiftiTypes[] = {
-    {"NIFTI_TYPE_UINT8", VtkType::kUint8},     {"NIFTI_TYPE_INT8", VtkType::kInt8},
-    {"NIFTI_TYPE_INT16", VtkType::kInt16},     {"NIFTI_TYPE_UINT16", VtkType::kUint16},
-    {"NIFTI_TYPE_INT32", VtkType::kInt32},     {"NIFTI_TYPE_UINT32", VtkType::kUint32},
-    {"NIFTI_TYPE_INT64", VtkType::kInt64},     {"NIFTI_TYPE_UINT64", VtkType::kUint64},
-    {"NIFTI_TYPE_FLOAT32", VtkType::kFloat32}, {"NIFTI_TYPE_FLOAT64", VtkType::kFloat64}};
+    {"NIFTI_TYPE_UINT8", NumberType::kUint8},     {"NIFTI_TYPE_INT8", NumberType::kInt8},
+    {"NIFTI_TYPE_INT16", NumberType::kInt16},     {"NIFTI_TYPE_UINT16", NumberType::kUint16},
+    {"NIFTI_TYPE_INT32", NumberType::kInt32},     {"NIFTI_TYPE_UINT32", NumberType::kUint32},
+    {"NIFTI_TYPE_INT64", NumberType::kInt64},     {"NIFTI_TYPE_UINT64", NumberType::kUint64},
+    {"NIFTI_TYPE_FLOAT32", NumberType::kFloat32}, {"NIFTI_TYPE_FLOAT64", NumberType::kFloat64}};
 
 struct GiftiArray {
   std::string_view intent;

@@ -55,6 +55,15 @@ class Inflation {
 
 }  // namespace
 
+Unpacked unpack_gzip_stream(std::string_view packed, char* to, std::size_t room) {
+  Inflation stream(packed);
+  std::size_t made = 0;
+  while (made < room && !stream.has_ended() && !stream.is_stuck()) {
+    made += stream.make(to + made, room - made);
+  }
+  return {made, stream.has_ended()};
+}
+
 RawVector<char> unpack_gzip(std::string_view packed, std::size_t most, std::size_t padding) {
   const std::string sizes = std::to_string(packed.size()) + " compressed bytes";
   const std::size_t usual = std::max(kAlways, kMaxTimes * packed.size());

@@ -17,10 +17,10 @@
 #include <utility>
 
 #include "solver/core/memory.h"
+#include "solver/core/parallel.h"
 #include "solver/core/text.h"
 #include "solver/mesh/io/formats.h"
 #include "solver/mesh/io/gzip.h"
-#include "solver/mesh/io/parallel.h"
 
 namespace geotherm::io {
 
@@ -260,6 +260,15 @@ Result<void> InputFile::check_unchanged() const {
                {"read it again once it is complete"}};
 }
 
+Error unknown_model(const InputFile& file, const std::string& of, unsigned holds) {
+  const std::string& extension = file.extension();
+  return {ErrorCode::kNotAvailable,
+          file.shown() + ": " +
+              (extension.empty() ? "neither its name nor its first bytes say what it is"
+                                 : "unknown extension \"" + printable(extension) + "\"" + of),
+          {"there are " + extensions_holding(holds)}};
+}
+
 namespace {
 
 LargeBuffer room_for(std::size_t bytes) {
@@ -273,14 +282,15 @@ LargeBuffer room_for(std::size_t bytes) {
 FileBytes::FileBytes(const InputFile& file)
     : held_(file.held_), buffer_(held_ ? LargeBuffer() : room_for(file.size() + kPadding)) {
   if (held_) return;
-  constexpr std::size_t kPiece = std::size_t{4} << 20;
+  constexpr std::int64_t kPiece = std::int64_t{4} << 20;
   char* const bytes = reinterpret_cast<char*>(buffer_.data());
   const std::size_t size = file.size();
   std::memset(bytes + size, 0, kPadding);
-  for_each_parallel((size + kPiece - 1) / kPiece, [&](std::size_t i) {
-    const std::size_t place = i * kPiece;
-    file.read(bytes + place, std::min(kPiece, size - place), place);
-  });
+  parallel_for(thread_count(0), static_cast<std::int64_t>(size), kPiece,
+               [&](std::int64_t begin, std::int64_t end) {
+                 file.read(bytes + begin, static_cast<std::size_t>(end - begin),
+                           static_cast<std::size_t>(begin));
+               });
 }
 
 Result<FileBytes> FileBytes::read(const std::string& path) {

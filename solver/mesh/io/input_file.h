@@ -128,6 +128,10 @@ class FileBytes {
   LargeBuffer buffer_;  ///< with the padding
 };
 
+/// That the extension of a file is none of those that hold what is asked for. `of`: " of tets", or
+/// empty; `holds`: of Holding.
+Error unknown_model(const InputFile& file, const std::string& of, unsigned holds);
+
 /// What `read` gives, a Result, or an error of what it throws. `name`: of the file, as printed;
 /// `what`: "mesh"; `size`: bytes of the file.
 template <class Read>
@@ -142,6 +146,16 @@ auto guarded_read(const std::string& name, const char* what, std::size_t size, c
   }
   return Error{ErrorCode::kOutOfMemory, name + ": not enough memory for the " + what + " in its " +
                                             std::to_string(size) + " bytes"};
+}
+
+/// The same of a file, or the error that it changed meanwhile: that comes before what was wrong in
+/// it, which may have been half of what it is to be.
+template <class Read>
+auto read_unchanged(const InputFile& file, const std::string& name, const char* what,
+                    const Read& read) -> decltype(read()) {
+  auto made = guarded_read(name, what, file.size(), read);
+  if (auto same = file.check_unchanged(); !same) return same.error();
+  return made;
 }
 
 }  // namespace geotherm::io

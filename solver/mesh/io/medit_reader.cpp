@@ -36,64 +36,66 @@ bool starts_keyword(std::string_view word) {
   return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z');
 }
 
-std::int64_t medit_count(TextScanner& scanner, const char* things, std::size_t bytes_each) {
-  const std::int64_t count = scanner.integer();
-  if (count < 0 || static_cast<std::uint64_t>(count) > (scanner.bytes_left() + 1) / bytes_each) {
-    scanner.fail("there are to be " + std::to_string(count) + ' ' + things + ", but only " +
-                 std::to_string(scanner.bytes_left()) + " bytes follow");
-  }
-  return count;
-}
+/// The numbers of a .mesh file, each of which takes two bytes at least.
+struct MeditScanner : TextScanner {
+  using TextScanner::TextScanner;
 
-void read_medit_vertices(TextScanner& scanner, RawElements& raw) {
-  const std::int64_t count = medit_count(scanner, "vertices", 8);  // "0 0 0 0\n"
+  std::int64_t count(const char* things, std::size_t numbers_each) {
+    const std::int64_t count = integer();
+    checked_count(*this, count, things, (bytes_left() + 1) / (2 * numbers_each));
+    return count;
+  }
+  void skip_region() { number(); }
+};
+
+// What follows reads by a MeditScanner or a MeshbScanner. Behind the numbers of each vertex and of
+// each element stands that of its region.
+
+template <class Scanner>
+void read_medit_vertices(Scanner& scanner, RawElements& raw) {
+  const std::int64_t count = scanner.count("vertices", 4);
   raw.positions.resize(static_cast<std::size_t>(count));
   for (std::int64_t v = 0; v < count; ++v) {
     scanner.now_reading("vertex", v + 1, count);
     for (int axis = 0; axis < 3; ++axis) {
       raw.positions[static_cast<std::size_t>(v)][axis] = scanner.coordinate();
     }
-    scanner.number();  // the part of the model it belongs to
+    scanner.skip_region();
   }
 }
 
-template <class Fail>
-Index medit_corner(std::int64_t number, const RawElements& raw, const Fail& fail) {
+template <class Scanner>
+Index medit_corner(Scanner& scanner, const RawElements& raw) {
+  const std::int64_t number = scanner.integer();
   if (number < 1 || static_cast<std::uint64_t>(number) > raw.positions.size()) {
-    fail("vertex " + std::to_string(number) + " is used, but the file has " +
-         std::to_string(raw.positions.size()) + " vertices, counted from 1, before it");
+    scanner.fail("vertex " + std::to_string(number) + " is used, but the file has " +
+                 std::to_string(raw.positions.size()) + " vertices, counted from 1, before it");
   }
   return static_cast<Index>(number - 1);
 }
 
-void read_medit_tets(TextScanner& scanner, RawElements& raw) {
-  const std::int64_t count = medit_count(scanner, "tetrahedra", 10);  // "1 2 3 4 0\n"
+template <class Scanner>
+void read_medit_tets(Scanner& scanner, RawElements& raw) {
+  const std::int64_t count = scanner.count("tetrahedra", 5);
   raw.tets.reserve(static_cast<std::size_t>(count));
   for (std::int64_t t = 0; t < count; ++t) {
     scanner.now_reading("tetrahedron", t + 1, count);
-    std::array<Index, 4> tet;
-    for (Index& corner : tet) {
-      corner = medit_corner(scanner.integer(), raw,
-                            [&scanner](const std::string& cause) { scanner.fail(cause); });
-    }
-    scanner.number();  // its region
-    raw.tets.push_back(tet);
+    auto& tet = raw.tets.emplace_back();
+    for (Index& corner : tet) corner = medit_corner(scanner, raw);
+    scanner.skip_region();
   }
 }
 
-/// Corners are one after the other: those of all elements of one kind, and their region.
-void read_medit_faces(TextScanner& scanner, const MeditKind& kind, RawElements& raw) {
-  const std::int64_t count = medit_count(scanner, kind.name, 2 * (kind.face_corners + 1));
+template <class Scanner>
+void read_medit_faces(Scanner& scanner, const MeditKind& kind, RawElements& raw) {
+  const std::int64_t count = scanner.count(kind.name, kind.face_corners + 1);
   raw.others[kind.name] += count;
   FanBuilder fan(raw.faces);
   for (std::int64_t f = 0; f < count; ++f) {
     scanner.now_reading("face", f + 1, count);
-    for (std::size_t k = 0; k < kind.face_corners; ++k) {
-      fan.add(medit_corner(scanner.integer(), raw,
-                           [&scanner](const std::string& cause) { scanner.fail(cause); }));
-    }
+    for (std::size_t k = 0; k < kind.face_corners; ++k) fan.add(medit_corner(scanner, raw));
     fan.end(raw.polygons);
-    scanner.number();  // its region
+    scanner.skip_region();
   }
 }
 
@@ -105,7 +107,7 @@ void check_once(bool empty, const char* keyword, TextScanner& scanner) {
 }  // namespace
 
 RawElements read_medit(std::string_view text) {
-  TextScanner scanner(text, '#');
+  MeditScanner scanner(text, '#');
   scanner.now_reading("the header");
   if (scanner.word() != "MeshVersionFormatted") {
     scanner.fail("a Medit file starts with the word MeshVersionFormatted");
@@ -133,7 +135,7 @@ RawElements read_medit(std::string_view text) {
         if (kind.face_corners > 0) {
           read_medit_faces(scanner, kind, raw);
         } else {
-          raw.others[kind.name] += medit_count(scanner, kind.name, 2);
+          raw.others[kind.name] += scanner.count(kind.name, 1);
         }
       }
       while (!scanner.at_end() && !starts_keyword(scanner.peek())) scanner.word();
@@ -165,6 +167,9 @@ class MeshbScanner {
   std::int64_t position() { return version_ < 3 ? take<std::int32_t>() : take<std::int64_t>(); }
   std::int64_t integer() { return version_ < 4 ? take<std::int32_t>() : take<std::int64_t>(); }
 
+  void skip_region() { integer(); }
+  void now_reading(const char* /*thing*/, std::int64_t /*number*/, std::int64_t /*count*/) {}
+
   double coordinate() {
     const double value = version_ == 1 ? double{take<float>()} : take<double>();
     if (!std::isfinite(value)) fail("a coordinate is not finite");
@@ -173,10 +178,7 @@ class MeshbScanner {
 
   std::int64_t count(const char* things, std::size_t numbers_each) {
     const std::int64_t count = integer();
-    if (count < 0 || static_cast<std::uint64_t>(count) > bytes_left() / (4 * numbers_each)) {
-      fail("there are to be " + std::to_string(count) + ' ' + things + ", but only " +
-           std::to_string(bytes_left()) + " bytes follow");
-    }
+    checked_count(*this, count, things, bytes_left() / (4 * numbers_each));
     return count;
   }
 
@@ -210,39 +212,6 @@ class MeshbScanner {
   std::int32_t version_ = 1;
 };
 
-void read_meshb_vertices(MeshbScanner& scanner, RawElements& raw) {
-  raw.positions.resize(static_cast<std::size_t>(scanner.count("vertices", 4)));
-  for (Vec3& p : raw.positions) {
-    for (int axis = 0; axis < 3; ++axis) p[axis] = scanner.coordinate();
-    scanner.integer();
-  }
-}
-
-void read_meshb_tets(MeshbScanner& scanner, RawElements& raw) {
-  raw.tets.resize(static_cast<std::size_t>(scanner.count("tetrahedra", 5)));
-  for (auto& tet : raw.tets) {
-    for (Index& corner : tet) {
-      corner = medit_corner(scanner.integer(), raw,
-                            [&scanner](const std::string& cause) { scanner.fail(cause); });
-    }
-    scanner.integer();
-  }
-}
-
-void read_meshb_faces(MeshbScanner& scanner, const MeditKind& kind, RawElements& raw) {
-  const std::int64_t count = scanner.count(kind.name, kind.face_corners + 1);
-  raw.others[kind.name] += count;
-  FanBuilder fan(raw.faces);
-  for (std::int64_t f = 0; f < count; ++f) {
-    for (std::size_t k = 0; k < kind.face_corners; ++k) {
-      fan.add(medit_corner(scanner.integer(), raw,
-                           [&scanner](const std::string& cause) { scanner.fail(cause); }));
-    }
-    fan.end(raw.polygons);
-    scanner.integer();
-  }
-}
-
 }  // namespace
 
 RawElements read_meshb(std::string_view bytes) {
@@ -259,12 +228,12 @@ RawElements read_meshb(std::string_view bytes) {
       if (!(keyword == kVertices ? raw.positions.empty() : raw.tets.empty())) {
         scanner.fail("there is a second list of the same kind");
       }
-      keyword == kVertices ? read_meshb_vertices(scanner, raw) : read_meshb_tets(scanner, raw);
+      keyword == kVertices ? read_medit_vertices(scanner, raw) : read_medit_tets(scanner, raw);
     } else {
       for (const MeditKind& kind : kMeditKinds) {
         if (keyword != kind.code) continue;
         if (kind.face_corners > 0) {
-          read_meshb_faces(scanner, kind, raw);
+          read_medit_faces(scanner, kind, raw);
         } else {
           raw.others[kind.name] += scanner.count(kind.name, 2);
         }

@@ -105,14 +105,9 @@ class MixedScanner {
                                     : words_.bytes_left();
   }
 
-  /// A count of things, each of which takes some bytes at least: fails where they do not fit into
-  /// what is left, before memory is asked for.
+  /// A count of things, each of which takes some bytes at least.
   std::size_t checked_count(std::int64_t count, const char* things, std::size_t bytes_each) const {
-    if (count < 0 || static_cast<std::uint64_t>(count) > (bytes_left() + 1) / bytes_each) {
-      fail("there are to be " + std::to_string(count) + ' ' + things + ", but only " +
-           std::to_string(bytes_left()) + " bytes follow");
-    }
-    return static_cast<std::size_t>(count);
+    return io::checked_count(*this, count, things, (bytes_left() + 1) / bytes_each);
   }
 
   /// Fails for a reason that lies in the word or the value that was taken last.

@@ -2,6 +2,7 @@
 #include "solver/mesh/io/npy_header.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "solver/mesh/io/byte_order.h"
 #include "solver/mesh/io/input_file.h"
@@ -9,6 +10,12 @@
 
 namespace geotherm::io {
 namespace {
+
+constexpr std::pair<std::string_view, NumberType> kNpyTypes[] = {
+    {"b1", NumberType::kUint8},   {"u1", NumberType::kUint8},  {"i1", NumberType::kInt8},
+    {"u2", NumberType::kUint16},  {"i2", NumberType::kInt16},  {"u4", NumberType::kUint32},
+    {"i4", NumberType::kInt32},   {"u8", NumberType::kUint64}, {"i8", NumberType::kInt64},
+    {"f4", NumberType::kFloat32}, {"f8", NumberType::kFloat64}};
 
 /// What stands behind a key of the dictionary, without blanks in front.
 std::string_view behind_key(std::string_view bytes, std::string_view dictionary,
@@ -83,6 +90,13 @@ NpyHeader read_npy_header(std::string_view bytes) {
   header.fortran = behind_key(bytes, dictionary, "'fortran_order'").starts_with("True");
   read_npy_shape(bytes, behind_key(bytes, dictionary, "'shape'"), header);
   return header;
+}
+
+std::optional<NumberType> number_type_of(const NpyHeader& header) {
+  for (const auto& [name, type] : kNpyTypes) {
+    if (name == header.type) return type;
+  }
+  return std::nullopt;
 }
 
 }  // namespace geotherm::io

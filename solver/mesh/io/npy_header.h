@@ -4,9 +4,12 @@
 #include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include "solver/mesh/io/number_type.h"
 
 namespace geotherm::io {
 
@@ -23,5 +26,8 @@ struct NpyHeader {
 
 /// `bytes`: the file, or enough of its beginning. Throws ReadFailure with the byte.
 NpyHeader read_npy_header(std::string_view bytes);
+
+/// How the numbers are stored; nothing where they are none that are read. Booleans are kUint8.
+std::optional<NumberType> number_type_of(const NpyHeader& header);
 
 }  // namespace geotherm::io

@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "solver/core/memory.h"
+#include "solver/core/parallel.h"
 #include "solver/mesh/io/input_file.h"
 #include "solver/mesh/io/obj_chunk.h"
-#include "solver/mesh/io/parallel.h"
 #include "solver/mesh/io/raw_mesh.h"
 
 namespace geotherm::io {
@@ -112,11 +112,18 @@ class ObjSource {
   throw ReadFailure{"line " + std::to_string(line) + ": " + failure.cause, 0, {}, failure.hint};
 }
 
+/// Calls work(i) for every i below `count` on all cores. It must not throw.
+template <class Work>
+void for_each_chunk(std::size_t count, const Work& work) {
+  run_calls(thread_count(0), static_cast<int>(count),
+            [&work](int i) { work(static_cast<std::size_t>(i)); });
+}
+
 /// Parses all chunks that `is_due`; of several failures the first in the file is thrown.
 template <class Due>
 void parse_all(ObjSource& source, std::vector<ObjChunk>& chunks, const Due& is_due) {
   std::vector<std::exception_ptr> failures(chunks.size());
-  for_each_parallel(chunks.size(), [&](std::size_t i) {
+  for_each_chunk(chunks.size(), [&](std::size_t i) {
     if (!is_due(chunks[i])) return;
     try {
       source.with_lines(i, [&](std::string_view lines) {
@@ -187,7 +194,7 @@ RawMesh read_pieces(ObjSource& source) {
   mesh.positions.resize(vertex_count);
   mesh.faces.resize(face_count);
   std::vector<std::size_t> bad_faces(chunks.size());
-  for_each_parallel(chunks.size(), [&](std::size_t i) {
+  for_each_chunk(chunks.size(), [&](std::size_t i) {
     ObjChunk& chunk = chunks[i];
     std::ranges::copy(chunk.positions,
                       mesh.positions.begin() + static_cast<std::ptrdiff_t>(vertex_starts[i]));

@@ -28,12 +28,8 @@ void read_keyword(TextScanner& scanner) {
 
 std::size_t read_count(TextScanner& scanner, const char* things, std::size_t bytes_each) {
   const std::int64_t count = scanner.integer();
-  const std::size_t most = (scanner.bytes_left() + 1) / bytes_each;
-  if (count < 0 || static_cast<std::uint64_t>(count) > most) {
-    scanner.fail("the header announces " + std::to_string(count) + ' ' + things + ", but only " +
-                 std::to_string(scanner.bytes_left()) + " bytes follow");
-  }
-  return static_cast<std::size_t>(count);
+  return checked_count(scanner, count, things, (scanner.bytes_left() + 1) / bytes_each,
+                       "the header announces ");
 }
 
 }  // namespace

@@ -32,9 +32,9 @@ class AsciiBody {
   void now_reading(const PlyElement& element, std::int64_t row) {
     scanner_.now_reading(row_name(element), row + 1, element.count);
   }
-  double number(PlyType) { return scanner_.number(); }
-  double coordinate(PlyType) { return scanner_.coordinate(); }
-  std::int64_t integer(PlyType) { return scanner_.integer(); }
+  double number(NumberType) { return scanner_.number(); }
+  double coordinate(NumberType) { return scanner_.coordinate(); }
+  std::int64_t integer(NumberType) { return scanner_.integer(); }
   [[noreturn]] void fail(const std::string& cause) const { scanner_.fail(cause); }
   std::size_t bytes_left() { return scanner_.at_end() ? 0 : scanner_.bytes_left(); }
 
@@ -54,17 +54,17 @@ class BinaryBody {
     row_ = row;
   }
 
-  double number(PlyType type) {
+  double number(NumberType type) {
     return take(type, [](auto value) { return static_cast<double>(value); });
   }
 
-  double coordinate(PlyType type) {
+  double coordinate(NumberType type) {
     const double value = number(type);
     if (!std::isfinite(value)) fail("a coordinate is not finite");
     return value;
   }
 
-  std::int64_t integer(PlyType type) {
+  std::int64_t integer(NumberType type) {
     return take(type, [this](auto value) {
       if constexpr (std::is_floating_point_v<decltype(value)>) {
         if (!(std::abs(value) < 1e9 && value == std::floor(value))) fail("an index is not whole");
@@ -83,26 +83,8 @@ class BinaryBody {
 
  private:
   template <class Use>
-  auto take(PlyType type, const Use& use) {
-    switch (type) {
-      case PlyType::kInt8:
-        return use(take<std::int8_t>());
-      case PlyType::kUint8:
-        return use(take<std::uint8_t>());
-      case PlyType::kInt16:
-        return use(take<std::int16_t>());
-      case PlyType::kUint16:
-        return use(take<std::uint16_t>());
-      case PlyType::kInt32:
-        return use(take<std::int32_t>());
-      case PlyType::kUint32:
-        return use(take<std::uint32_t>());
-      case PlyType::kFloat32:
-        return use(take<float>());
-      case PlyType::kFloat64:
-        break;
-    }
-    return use(take<double>());
+  auto take(NumberType type, const Use& use) {
+    return with_number_type(type, [&](auto zero) { return use(take<decltype(zero)>()); });
   }
 
   template <class T>

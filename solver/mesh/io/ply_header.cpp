@@ -2,8 +2,6 @@
 #include "solver/mesh/io/ply_header.h"
 
 #include <algorithm>
-#include <array>
-#include <optional>
 #include <string>
 #include <unordered_set>
 #include <utility>
@@ -14,17 +12,15 @@
 namespace geotherm::io {
 namespace {
 
-constexpr std::array<std::string_view, 8> kOldNames = {"char", "uchar", "short", "ushort",
-                                                       "int",  "uint",  "float", "double"};
-constexpr std::array<std::string_view, 8> kNames = {"int8",  "uint8",  "int16",   "uint16",
-                                                    "int32", "uint32", "float32", "float64"};
-
-std::optional<PlyType> type_named(std::string_view name) {
-  for (std::size_t i = 0; i < kNames.size(); ++i) {
-    if (name == kNames[i] || name == kOldNames[i]) return static_cast<PlyType>(i);
-  }
-  return std::nullopt;
-}
+struct PlyType {
+  std::string_view name, old_name;
+  NumberType type;
+};
+constexpr PlyType kPlyTypes[] = {
+    {"int8", "char", NumberType::kInt8},        {"uint8", "uchar", NumberType::kUint8},
+    {"int16", "short", NumberType::kInt16},     {"uint16", "ushort", NumberType::kUint16},
+    {"int32", "int", NumberType::kInt32},       {"uint32", "uint", NumberType::kUint32},
+    {"float32", "float", NumberType::kFloat32}, {"float64", "double", NumberType::kFloat64}};
 
 /// The header, line by line and word by word.
 class HeaderReader : private HeaderLines {
@@ -95,10 +91,11 @@ class HeaderReader : private HeaderLines {
     header_.elements.back().properties.push_back(std::move(property));
   }
 
-  PlyType read_type(std::string_view name) {
-    const std::optional<PlyType> type = type_named(name);
-    if (!type) fail("unknown type " + quoted(name, name.data()) + " of a property");
-    return *type;
+  NumberType read_type(std::string_view name) {
+    for (const PlyType& each : kPlyTypes) {
+      if (name == each.name || name == each.old_name) return each.type;
+    }
+    fail("unknown type " + quoted(name, name.data()) + " of a property");
   }
 
   PlyHeader header_;
@@ -119,11 +116,6 @@ std::uint64_t least_row_bytes(const PlyElement& element, PlyFormat format) {
 }
 
 }  // namespace
-
-std::size_t size_of(PlyType type) {
-  constexpr std::array<std::size_t, 8> kSizes = {1, 1, 2, 2, 4, 4, 4, 8};
-  return kSizes[static_cast<std::size_t>(type)];
-}
 
 int PlyElement::find(std::string_view property, bool is_list) const {
   const auto found = std::ranges::find_if(

@@ -6,20 +6,17 @@
 #include <string_view>
 #include <vector>
 
+#include "solver/mesh/io/number_type.h"
+
 namespace geotherm::io {
 
 enum class PlyFormat { kAscii, kLittleEndian, kBigEndian };
 
-enum class PlyType { kInt8, kUint8, kInt16, kUint16, kInt32, kUint32, kFloat32, kFloat64 };
-
-/// Bytes of one value.
-std::size_t size_of(PlyType type);
-
 struct PlyProperty {
   std::string name;
-  PlyType type = PlyType::kFloat32;  ///< of the value, or of a list's items
+  NumberType type = NumberType::kFloat32;  ///< of the value, or of a list's items
   bool is_list = false;
-  PlyType count_type = PlyType::kUint8;
+  NumberType count_type = NumberType::kUint8;
 };
 
 struct PlyElement {

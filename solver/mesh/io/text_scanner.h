@@ -191,4 +191,16 @@ class TextScanner {
   std::int64_t count_ = 0;
 };
 
+/// A count of things of which the rest of the scanner's file holds `most`: fails where there are
+/// to be more, before memory is asked for. `announced`: what messages begin with.
+template <class Scanner>
+std::size_t checked_count(const Scanner& scanner, std::int64_t count, const char* things,
+                          std::size_t most, const char* announced = "there are to be ") {
+  if (count < 0 || static_cast<std::uint64_t>(count) > most) {
+    scanner.fail(announced + std::to_string(count) + ' ' + things + ", but only " +
+                 std::to_string(scanner.bytes_left()) + " bytes follow");
+  }
+  return static_cast<std::size_t>(count);
+}
+
 }  // namespace geotherm::io

@@ -49,26 +49,6 @@ std::string vtk_cell_name(std::int64_t type) {
 
 }  // namespace
 
-std::size_t size_of(VtkType type) {
-  switch (type) {
-    case VtkType::kInt8:
-    case VtkType::kUint8:
-      return 1;
-    case VtkType::kInt16:
-    case VtkType::kUint16:
-      return 2;
-    case VtkType::kInt32:
-    case VtkType::kUint32:
-    case VtkType::kFloat32:
-      return 4;
-    case VtkType::kInt64:
-    case VtkType::kUint64:
-    case VtkType::kFloat64:
-      break;
-  }
-  return 8;
-}
-
 void add_vtk_cells(const VtkCells& cells, std::int64_t first, RawElements& raw) {
   const std::size_t count = cells.types.size();
   const auto numbers = static_cast<std::int64_t>(cells.connectivity.size());

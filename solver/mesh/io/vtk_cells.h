@@ -10,22 +10,6 @@
 
 namespace geotherm::io {
 
-/// The types of numbers in files of VTK, which names them differently in its two formats.
-enum class VtkType {
-  kInt8,
-  kUint8,
-  kInt16,
-  kUint16,
-  kInt32,
-  kUint32,
-  kInt64,
-  kUint64,
-  kFloat32,
-  kFloat64
-};
-
-std::size_t size_of(VtkType type);
-
 /// The cells of a grid in either format of VTK: corners of cell c are connectivity[offsets[c]] to
 /// before connectivity[offsets[c + 1]].
 struct VtkCells {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "solver/mesh/io/mixed_scanner.h"
+#include "solver/mesh/io/number_type.h"
 #include "solver/mesh/io/raw_elements.h"
 #include "solver/mesh/io/vtk_cells.h"
 
@@ -15,24 +16,24 @@ namespace {
 
 struct LegacyType {
   std::string_view name;
-  VtkType type;
+  NumberType type;
 };
 constexpr std::int64_t kVtkVertices = 2, kVtkLines = 4;
 constexpr LegacyType kLegacyTypes[] = {
-    {"char", VtkType::kInt8},
-    {"signed_char", VtkType::kInt8},
-    {"unsigned_char", VtkType::kUint8},
-    {"short", VtkType::kInt16},
-    {"unsigned_short", VtkType::kUint16},
-    {"int", VtkType::kInt32},
-    {"unsigned_int", VtkType::kUint32},
-    {"vtkidtype", VtkType::kInt32},
-    {"long", VtkType::kInt64},
-    {"unsigned_long", VtkType::kUint64},
-    {"vtktypeint64", VtkType::kInt64},
-    {"vtktypeuint64", VtkType::kUint64},
-    {"float", VtkType::kFloat32},
-    {"double", VtkType::kFloat64},
+    {"char", NumberType::kInt8},
+    {"signed_char", NumberType::kInt8},
+    {"unsigned_char", NumberType::kUint8},
+    {"short", NumberType::kInt16},
+    {"unsigned_short", NumberType::kUint16},
+    {"int", NumberType::kInt32},
+    {"unsigned_int", NumberType::kUint32},
+    {"vtkidtype", NumberType::kInt32},
+    {"long", NumberType::kInt64},
+    {"unsigned_long", NumberType::kUint64},
+    {"vtktypeint64", NumberType::kInt64},
+    {"vtktypeuint64", NumberType::kUint64},
+    {"float", NumberType::kFloat32},
+    {"double", NumberType::kFloat64},
 };
 
 std::string lower_case(std::string_view word) {
@@ -104,7 +105,7 @@ class LegacyVtk {
     }
   }
 
-  VtkType type() {
+  NumberType type() {
     const std::string name = lower_case(scanner_.words().word());
     const auto* const found = std::ranges::find(kLegacyTypes, name, &LegacyType::name);
     if (found == std::end(kLegacyTypes)) {
@@ -113,9 +114,9 @@ class LegacyVtk {
     return found->type;
   }
 
-  std::int64_t integer(VtkType type) {
-    if (type == VtkType::kInt64) return scanner_.integer<std::int64_t>();
-    if (type == VtkType::kInt32) return scanner_.integer<std::int32_t>();
+  std::int64_t integer(NumberType type) {
+    if (type == NumberType::kInt64) return scanner_.integer<std::int64_t>();
+    if (type == NumberType::kInt32) return scanner_.integer<std::int32_t>();
     scanner_.fail("numbers of cells are neither int nor vtktypeint64");
   }
 
@@ -132,8 +133,8 @@ class LegacyVtk {
   void read_points() {
     be_first(has_points_, "POINTS");
     const std::int64_t count = scanner_.words().integer();
-    const VtkType type = this->type();
-    if (type != VtkType::kFloat32 && type != VtkType::kFloat64) {
+    const NumberType type = this->type();
+    if (is_whole(type)) {
       scanner_.fail("coordinates are neither float nor double");
     }
     values(count, "points", 3 * size_of(type));
@@ -142,8 +143,8 @@ class LegacyVtk {
     for (std::size_t v = 0; v < raw_.positions.size(); ++v) {
       scanner_.now_reading("point", static_cast<std::int64_t>(v) + 1, count);
       for (int axis = 0; axis < 3; ++axis) {
-        raw_.positions[v][axis] = type == VtkType::kFloat32 ? scanner_.coordinate<float>()
-                                                            : scanner_.coordinate<double>();
+        raw_.positions[v][axis] = type == NumberType::kFloat32 ? scanner_.coordinate<float>()
+                                                               : scanner_.coordinate<double>();
       }
     }
     scanner_.end_values();
@@ -187,7 +188,7 @@ class LegacyVtk {
     if (lower_case(scanner_.words().word()) != name) {
       scanner_.fail(std::string("the word ") + name + " does not follow");
     }
-    const VtkType type = this->type();
+    const NumberType type = this->type();
     values(count, name, size_of(type));
     scanner_.begin_values();
     list.resize(values(count, name, size_of(type)));

@@ -14,12 +14,12 @@ constexpr std::string_view kXmlSpace = " \t\r\n";
 
 constexpr struct {
   std::string_view name;
-  VtkType type;
-} kXmlTypes[] = {{"Int8", VtkType::kInt8},       {"UInt8", VtkType::kUint8},
-                 {"Int16", VtkType::kInt16},     {"UInt16", VtkType::kUint16},
-                 {"Int32", VtkType::kInt32},     {"UInt32", VtkType::kUint32},
-                 {"Int64", VtkType::kInt64},     {"UInt64", VtkType::kUint64},
-                 {"Float32", VtkType::kFloat32}, {"Float64", VtkType::kFloat64}};
+  NumberType type;
+} kXmlTypes[] = {{"Int8", NumberType::kInt8},       {"UInt8", NumberType::kUint8},
+                 {"Int16", NumberType::kInt16},     {"UInt16", NumberType::kUint16},
+                 {"Int32", NumberType::kInt32},     {"UInt32", NumberType::kUint32},
+                 {"Int64", NumberType::kInt64},     {"UInt64", NumberType::kUint64},
+                 {"Float32", NumberType::kFloat32}, {"Float64", NumberType::kFloat64}};
 
 }  // namespace
 

@@ -189,41 +189,6 @@ class VtuDecoder {
   const char* name_;
 };
 
-template <class T, class Use>
-void for_each_stored(const std::vector<char>& bytes, std::endian order, const Use& use) {
-  for (std::size_t at = 0; at < bytes.size(); at += sizeof(T)) {
-    use(load<T>(bytes.data() + at, order));
-  }
-}
-
-template <class Use>
-void for_each_stored(const std::vector<char>& bytes, VtkType type, std::endian order,
-                     const Use& use) {
-  switch (type) {
-    case VtkType::kInt8:
-      return for_each_stored<std::int8_t>(bytes, order, use);
-    case VtkType::kUint8:
-      return for_each_stored<std::uint8_t>(bytes, order, use);
-    case VtkType::kInt16:
-      return for_each_stored<std::int16_t>(bytes, order, use);
-    case VtkType::kUint16:
-      return for_each_stored<std::uint16_t>(bytes, order, use);
-    case VtkType::kInt32:
-      return for_each_stored<std::int32_t>(bytes, order, use);
-    case VtkType::kUint32:
-      return for_each_stored<std::uint32_t>(bytes, order, use);
-    case VtkType::kInt64:
-      return for_each_stored<std::int64_t>(bytes, order, use);
-    case VtkType::kUint64:
-      return for_each_stored<std::uint64_t>(bytes, order, use);
-    case VtkType::kFloat32:
-      return for_each_stored<float>(bytes, order, use);
-    case VtkType::kFloat64:
-      break;
-  }
-  for_each_stored<double>(bytes, order, use);
-}
-
 /// Numbers up to the next tag.
 template <class T>
 std::vector<T> read_text_array(std::string_view bytes, std::size_t place, const char* name,
@@ -269,7 +234,7 @@ std::vector<T> read_vtu_array(std::string_view bytes, const VtuEncoding& encodin
   if (beyond) decoder.fail("the file ends");
   const std::vector<char> raw = decoder.decode(size * size_of(array.type));
   values.reserve(static_cast<std::size_t>(size));
-  for_each_stored(raw, array.type, encoding.order, [&](auto value) {
+  for_each_number({raw.data(), raw.size()}, size, array.type, encoding.order, [&](auto value) {
     if constexpr (std::is_floating_point_v<T>) {
       if (finite && !std::isfinite(static_cast<double>(value)))
         decoder.fail("a number is not finite");
@@ -290,7 +255,7 @@ std::vector<double> read_vtu_reals(std::string_view bytes, const VtuEncoding& en
 std::vector<std::int64_t> read_vtu_integers(std::string_view bytes, const VtuEncoding& encoding,
                                             const VtuArray& array, const char* name,
                                             std::int64_t count) {
-  if (array.type == VtkType::kFloat32 || array.type == VtkType::kFloat64) {
+  if (!is_whole(array.type)) {
     throw ReadFailure{std::string("the array \"") + name + "\" has no whole numbers"};
   }
   return read_vtu_array<std::int64_t>(bytes, encoding, array, name, count, true);

@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "solver/mesh/io/vtk_cells.h"
+#include "solver/mesh/io/number_type.h"
 
 namespace geotherm::io {
 
@@ -17,8 +17,7 @@ struct VtuArray {
   enum class Format { kNone, kText, kBase64, kAppended };
 
   Format format = Format::kNone;  ///< kNone: there is no such array
-  VtkType type = VtkType::kFloat64;
-  std::int64_t components = 1;
+  NumberType type = NumberType::kFloat64;
   std::uint64_t place = 0;  ///< of the first byte between its tags; kAppended: from the mark on
 };
 

@@ -7,6 +7,7 @@
 
 #include "solver/mesh/io/input_file.h"
 #include "solver/mesh/io/raw_elements.h"
+#include "solver/mesh/io/vtk_cells.h"
 #include "solver/mesh/io/vtk_xml.h"
 
 namespace geotherm::io {

@@ -15,11 +15,7 @@ namespace {
 std::int64_t tetgen_count(TextScanner& scanner, const char* things) {
   scanner.now_reading("the first line");
   const std::int64_t count = scanner.integer();
-  const std::size_t most = (scanner.bytes_left() + 1) / 8;  // "0 1 2 3\n"
-  if (count < 0 || static_cast<std::uint64_t>(count) > most) {
-    scanner.fail("there are to be " + std::to_string(count) + ' ' + things + ", but only " +
-                 std::to_string(scanner.bytes_left()) + " bytes follow");
-  }
+  checked_count(scanner, count, things, (scanner.bytes_left() + 1) / 8);  // "0 1 2 3\n"
   return count;
 }
 
