@@ -9,6 +9,7 @@
 #include "solver/core/parallel.h"
 #include "solver/core/stopwatch.h"
 #include "solver/core/text.h"
+#include "solver/grid/grid_marching.h"
 #include "solver/heat/grid_field.h"
 #include "solver/method/marching_method.h"
 
@@ -114,16 +115,6 @@ class GridInput final : public Domain::Input {
 };
 
 Error bad_grid_source(std::string message) { return {ErrorCode::kBadInput, std::move(message)}; }
-
-/// Checks a point of a cell, whose number is that of its lowest corner.
-Result<void> check_cell_point(const GridLattice& lattice, const CellPoint& point) {
-  if (point.cell < 0 || point.cell >= lattice.grid().sample_count() ||
-      !lattice.has_cell(point.cell)) {
-    return bad_grid_source("at sample " + std::to_string(point.cell) + " begins no cell");
-  }
-  return check_weights(point.weights, std::size_t{1} << lattice.dimension(),
-                       "cell " + std::to_string(point.cell));
-}
 
 }  // namespace
 

@@ -299,20 +299,6 @@ Result<void> refuse_offsets(const SourceSet& sources, Hint hint) {
   return {};
 }
 
-Result<void> check_weights(std::span<const double> weights, std::size_t corners,
-                           const std::string& cell) {
-  double sum = 0;
-  bool valid = weights.size() == corners;
-  for (const double weight : weights) {
-    valid = valid && weight >= 0;
-    sum += weight;
-  }
-  constexpr double kOfOne = 1e-9;
-  if (valid && std::abs(sum - 1) <= kOfOne) return {};
-  return Error{ErrorCode::kBadInput, "the source in " + cell + " needs " + std::to_string(corners) +
-                                         " weights that are not negative and sum to 1"};
-}
-
 Result<SourceAnchors> place_sources(const Surface& surface, const SourceSet& sources) {
   if (const auto valid = check_sources(surface, sources); !valid) return valid.error();
   const Hint other = {"use ", SettingHint{"method", {"wavefront"}}};

@@ -138,6 +138,10 @@ class TetMarch {
                      "source vertex " + std::to_string(point.vertex) + " is not one of " +
                          std::to_string(m_.mesh_->vertex_count()) + " vertices"};
       }
+      if (m_.first_[point.vertex] == m_.first_[point.vertex + 1]) {
+        return Error{ErrorCode::kBadInput,
+                     "source vertex " + std::to_string(point.vertex) + " is in no tet"};
+      }
       return at(point.vertex);
     }
     if (!std::ranges::binary_search(m_.original_, point.tet)) {

@@ -23,11 +23,8 @@ Result<std::vector<VolumePoint>> volume_points(const SourceSet& sources) {
     out.push_back(VolumePoint::at_vertex(point.vertex));
   }
   for (const CellPoint& point : sources.cell_points) {
-    if (point.weights.size() != 4) {
-      return Error{ErrorCode::kBadInput, "the source in tet " + std::to_string(point.cell) +
-                                             " has " + std::to_string(point.weights.size()) +
-                                             " weights; a tet has 4 corners"};
-    }
+    auto valid = check_weights(point.weights, 4, "tet " + std::to_string(point.cell));
+    if (!valid) return valid.error();
     VolumePoint& to = out.emplace_back();
     to.tet = point.cell;
     std::ranges::copy(point.weights, to.weights.begin());
@@ -39,7 +36,8 @@ class TetMarchingMethod final : public MarchingMethod {
  public:
   TetMarchingMethod(std::shared_ptr<const TetMesh> mesh, TetFastMarching marching,
                     std::int64_t bytes, double setup_ms, int threads, double nanoseconds)
-      : MarchingMethod(static_cast<double>(bytes) / (1 << 20), setup_ms, threads, nanoseconds),
+      : MarchingMethod(mesh->vertex_count(), static_cast<double>(bytes) / (1 << 20), setup_ms,
+                       threads, nanoseconds),
         mesh_(std::move(mesh)),
         marching_(std::move(marching)) {
     for (const std::string& note : marching_.notes()) warnings_.push_back({note});
@@ -85,11 +83,11 @@ Result<std::shared_ptr<const DistanceMethod>> build_tet_marching(
   constexpr std::int64_t kBytesOfTet = 35;
   const std::int64_t bytes = kBytesOfTet * mesh->tet_count();
   constexpr double kNanosecondsOfVertex = 2000;
-  const double nanoseconds = kNanosecondsOfVertex * mesh->vertex_count();
   auto marching = TetFastMarching::build(mesh);
   if (!marching) return marching.error();
   return std::shared_ptr<const DistanceMethod>(std::make_shared<const TetMarchingMethod>(
-      std::move(mesh), *std::move(marching), bytes, watch.milliseconds(), threads, nanoseconds));
+      std::move(mesh), *std::move(marching), bytes, watch.milliseconds(), threads,
+      kNanosecondsOfVertex));
 }
 
 }  // namespace geotherm
