@@ -207,7 +207,7 @@ Built build_method_moved(std::shared_ptr<const TriangleMesh> moved, const Method
 }
 
 Built build_method(std::shared_ptr<const TetMesh> mesh, const MethodOptions& options,
-                   const Progress& progress) {
+                   const Progress& progress) try {
   if (auto fits = check_space_options(options, "volume"); !fits) return fits.error();
   if (options.method == MethodKind::kFastMarching) {
     return build_tet_marching(std::move(mesh), options.threads, progress);
@@ -216,6 +216,8 @@ Built build_method(std::shared_ptr<const TetMesh> mesh, const MethodOptions& opt
   if (!made) return made.error();
   return as_heat(
       HeatMethod::build(std::make_shared<const CellComplex>(*std::move(made)), options, progress));
+} catch (const std::bad_alloc&) {
+  return memory_ended(options);
 }
 
 Built build_method(std::shared_ptr<const Grid> grid, const MethodOptions& options,

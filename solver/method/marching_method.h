@@ -28,6 +28,12 @@ Result<void> check_space_sources(const SourceSet& sources, const std::string& in
 Result<void> check_weights(std::span<const double> weights, std::size_t corners,
                            const std::string& cell);
 
+/// The answer of one march.
+struct Marched {
+  std::vector<double> distances;  ///< kUnreached where none is
+  std::vector<Index> nearest;     ///< the source of each; kNoIndex
+};
+
 /// Fast marching in a space that is no triangle mesh.
 class MarchingMethod : public DistanceMethod {
  public:
@@ -40,11 +46,6 @@ class MarchingMethod : public DistanceMethod {
   const std::vector<Warning>& warnings() const override { return warnings_; }
 
  protected:
-  struct Marched {
-    std::vector<double> distances;
-    std::vector<Index> nearest;
-  };
-
   /// `nanoseconds`: that a query takes at least for each vertex.
   MarchingMethod(Index vertices, double memory_mb, double setup_ms, int threads, double nanoseconds)
       : vertices_(vertices), memory_mb_(memory_mb), threads_{threads, nanoseconds * vertices} {
