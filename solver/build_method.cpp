@@ -53,9 +53,7 @@ Built on_waves(std::shared_ptr<const WaveSurface> waves, const MethodOptions& op
 
 /// The surface that a method walks over; null for methods that walk over none.
 std::shared_ptr<const WaveSurface> waves_of(const DistanceMethod* method) {
-  if (const auto* wave = dynamic_cast<const WavefrontMethod*>(method)) return wave->surface();
-  if (const auto* march = dynamic_cast<const FastMarchingMethod*>(method)) return march->surface();
-  if (const auto* exact = dynamic_cast<const ExactMethod*>(method)) return exact->surface();
+  if (const auto* waves = dynamic_cast<const WaveMethod*>(method)) return waves->surface();
   return nullptr;
 }
 
