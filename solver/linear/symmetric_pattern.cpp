@@ -138,21 +138,4 @@ std::uint64_t pattern_hash(const LowerPattern& lower, int threads) {
   });
 }
 
-Components connected_components(const SymmetricPattern& pattern) {
-  DisjointSets sets(static_cast<std::size_t>(pattern.size()));
-  for (Index i = 0; i < pattern.size(); ++i) {
-    for (const Index j : pattern.neighbors(i)) {
-      if (j >= i) break;
-      sets.join(i, j);
-    }
-  }
-  Components out;
-  out.of.resize(static_cast<std::size_t>(pattern.size()));
-  for (Index i = 0; i < pattern.size(); ++i) {
-    const Index lowest = sets.root(i);
-    out.of[i] = lowest == i ? out.count++ : out.of[lowest];
-  }
-  return out;
-}
-
 }  // namespace geotherm
