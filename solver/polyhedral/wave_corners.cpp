@@ -105,21 +105,12 @@ class FanMarker {
 
 }  // namespace
 
-void list_corners(WaveTables& tables) {
-  tables.corner_start.assign(static_cast<std::size_t>(tables.vertex_count()) + 1, 0);
-  for (const WaveFace& face : tables.faces) {
-    for (const Index v : face.vertex) ++tables.corner_start[v + 1];
-  }
-  for (std::size_t v = 1; v < tables.corner_start.size(); ++v) {
-    tables.corner_start[v] += tables.corner_start[v - 1];
-  }
-  tables.corners.resize(3 * tables.faces.size());
-  std::vector<std::size_t> next(tables.corner_start.begin(), tables.corner_start.end() - 1);
-  for (std::size_t f = 0; f < tables.faces.size(); ++f) {
-    for (int k = 0; k < 3; ++k) {
-      tables.corners[next[tables.faces[f].vertex[k]]++] = static_cast<SideCode>(4 * f) + k;
-    }
-  }
+void list_corners(WaveTables& tables, int threads) {
+  const auto emit = [&tables](std::size_t f, const auto& put) {
+    for (int k = 0; k < 3; ++k) put(tables.faces[f].vertex[k], static_cast<SideCode>(4 * f) + k);
+  };
+  tables.corners = counting_sort<SideCode>(tables.faces.size(), tables.vertex_of_rank.size(),
+                                           threads, emit, tables.corner_start);
 }
 
 void mark_fans(WaveTables& tables, int threads) { FanMarker(tables).run(threads); }

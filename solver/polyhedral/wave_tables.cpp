@@ -233,7 +233,7 @@ WaveTables build_wave_tables(const WaveSurface& surface, int threads) {
     tables.rank_of_vertex[tables.vertex_of_rank[r]] = static_cast<Index>(r);
   }
   FaceWriter(surface, tables, threads).run();
-  list_corners(tables);
+  list_corners(tables, threads);
   mark_fans(tables, threads);
   mark_touching(tables, threads, surface.base);
   return tables;

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "solver/polyhedral/window_mesh.h"
 
-#include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <numeric>
+
+#include "solver/core/sorting.h"
 
 namespace geotherm {
 namespace {
@@ -71,15 +71,13 @@ void WindowMesh::lay_out_sides() {
 
 void WindowMesh::find_corners() {
   const auto vertices = static_cast<std::size_t>(surface_->base.mesh->vertex_count());
-  first_opposite_.assign(vertices + 1, 0);
-  for (const SideFrame& side : sides_) ++first_opposite_[static_cast<std::size_t>(side.origin) + 1];
-  vertices_in_use_ =
-      static_cast<Index>(vertices - static_cast<std::size_t>(std::count(
-                                        first_opposite_.begin() + 1, first_opposite_.end(), 0U)));
-  std::partial_sum(first_opposite_.begin(), first_opposite_.end(), first_opposite_.begin());
-  opposite_.resize(sides_.size());
-  std::vector<std::size_t> at(first_opposite_.begin(), first_opposite_.end() - 1);
-  for (Side s = 0; s < side_count(); ++s) opposite_[at[side(s).origin]++] = next_side(s);
+  const auto emit = [this](std::size_t s, const auto& put) {
+    put(sides_[s].origin, next_side(static_cast<Side>(s)));
+  };
+  opposite_ = counting_sort<Side>(sides_.size(), vertices, 1, emit, first_opposite_);
+  for (std::size_t v = 0; v < vertices; ++v) {
+    vertices_in_use_ += first_opposite_[v] < first_opposite_[v + 1] ? 1 : 0;
+  }
 }
 
 void WindowMesh::find_bends() {
@@ -105,7 +103,7 @@ void WindowMesh::find_bends() {
 
 double WindowMesh::bytes() const {
   return static_cast<double>(sides_.size() * sizeof(SideFrame) + opposite_.size() * sizeof(Side) +
-                             first_opposite_.size() * sizeof(std::size_t) + sends_.size());
+                             first_opposite_.size() * sizeof(std::uint32_t) + sends_.size());
 }
 
 }  // namespace geotherm
