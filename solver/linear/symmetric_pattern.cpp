@@ -138,4 +138,17 @@ std::uint64_t pattern_hash(const LowerPattern& lower, int threads) {
   });
 }
 
+void name_components(const Components& parts, std::span<const Index> order, Components& out) {
+  out.count = parts.count;
+  out.of.assign(order.size(), 0);
+  if (parts.count == 1) return;
+  std::vector<Index> name(static_cast<std::size_t>(parts.count), kNoIndex);
+  Index named = 0;
+  for (std::size_t k = 0; k < order.size(); ++k) {
+    Index& here = name[parts.of[order[k]]];
+    if (here == kNoIndex) here = named++;
+    out.of[k] = here;
+  }
+}
+
 }  // namespace geotherm

@@ -41,4 +41,7 @@ inline Components connected_components(const SymmetricPattern& pattern) {
   return connected_components(pattern.size(), [&](Index i) { return pattern.neighbors(i); });
 }
 
+/// The components of a pattern as an elimination order numbers them anew.
+void name_components(const Components& parts, std::span<const Index> order, Components& out);
+
 }  // namespace geotherm
