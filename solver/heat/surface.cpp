@@ -160,7 +160,7 @@ Result<void> order_afresh(int threads, const Progress& progress, Stopwatch& watc
       build_operator_mesh(out.intrinsic, pattern, used.local, order, used.parts, threads);
   std::vector<Index> vertices;
   for (const Index k : order) vertices.push_back(used.vertices[k]);
-  name_vertices(std::move(vertices), out);
+  out.number_rows(std::move(vertices), out.vertex_count());
   return {};
 }
 
