@@ -190,7 +190,6 @@ class PetscAnalysis final : public Analysis {
   explicit PetscAnalysis(std::shared_ptr<const Analysis> native) : native_(std::move(native)) {}
 
   std::span<const Index> order() const override { return native_->order(); }
-  std::int64_t bytes() const override { return native_->bytes(); }
   std::int64_t factor_bytes(FactorStorage storage) const override {
     return native_->factor_bytes(storage);
   }
