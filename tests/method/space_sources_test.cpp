@@ -25,7 +25,7 @@ struct BadSpaceSource {
 
 void PrintTo(const BadSpaceSource& bad, std::ostream* out) { *out << bad.name; }
 
-SourceSet with_offsets(std::vector<double> offsets) {
+SourceSet two_with_offsets(std::vector<double> offsets) {
   SourceSet set = SourceSet::of_vertices({0, 3});
   set.offsets = std::move(offsets);
   return set;
@@ -54,7 +54,8 @@ std::shared_ptr<const TetMesh> box_and_a_vertex() {
 }
 
 template <class Space>
-std::shared_ptr<const DistanceMethod> made(std::shared_ptr<const Space> space, MethodKind kind) {
+std::shared_ptr<const DistanceMethod> space_method(std::shared_ptr<const Space> space,
+                                                   MethodKind kind) {
   MethodOptions options;
   options.method = kind;
   return *build_method(std::move(space), options);
@@ -64,7 +65,8 @@ class SourcesInSpaces : public testing::TestWithParam<BadSpaceSource> {};
 
 TEST_P(SourcesInSpaces, AreRefusedByWhatIsWrong) {
   for (const MethodKind kind : {MethodKind::kHeat, MethodKind::kFastMarching}) {
-    for (const auto& method : {made(square_grid(5), kind), made(box_and_a_vertex(), kind)}) {
+    for (const auto& method :
+         {space_method(square_grid(5), kind), space_method(box_and_a_vertex(), kind)}) {
       const auto result = method->solve(GetParam().sources);
       ASSERT_FALSE(result) << to_text(kind);
       EXPECT_EQ(result.error().code, ErrorCode::kBadInput);
@@ -78,11 +80,11 @@ const BadSpaceSource kBadSpaceSources[] = {
     {"none", {}, "no source"},
     {"vertex_beyond_the_last", SourceSet::of_vertices({25}), "25"},
     {"negative_vertex", SourceSet::of_vertices({-5}), "-5"},
-    {"fewer_offsets_than_points", with_offsets({0}), "1 offset is given for 2 source points"},
-    {"more_offsets_than_points", with_offsets({0, 0, 0}), "3 offsets are given for 2 source"},
-    {"negative_offset", with_offsets({0, -0.5}), "source point 1 is -0.5"},
-    {"offset_that_is_no_number", with_offsets({kNan, 0}), "source point 0 is nan"},
-    {"offset_without_end", with_offsets({0, kUnreached}), "source point 1 is inf"},
+    {"fewer_offsets_than_points", two_with_offsets({0}), "1 offset is given for 2 source points"},
+    {"more_offsets_than_points", two_with_offsets({0, 0, 0}), "3 offsets are given for 2 source"},
+    {"negative_offset", two_with_offsets({0, -0.5}), "source point 1 is -0.5"},
+    {"offset_that_is_no_number", two_with_offsets({kNan, 0}), "source point 0 is nan"},
+    {"offset_without_end", two_with_offsets({0, kUnreached}), "source point 1 is inf"},
     {"cell_beyond_the_last", {{}, {}, {}, {{77, {1, 0, 0, 0}}}}, "77"},
     {"three_weights", in_cell({0.5, 0.25, 0.25}), "needs 4 weights"},
     {"weights_that_sum_to_two", in_cell({1, 0.5, 0.5, 0}), "sum to 1"},
@@ -95,14 +97,14 @@ INSTANTIATE_TEST_SUITE_P(All, SourcesInSpaces, testing::ValuesIn(kBadSpaceSource
 
 TEST(SourcesInVolumes, AreInATet) {
   for (const MethodKind kind : {MethodKind::kHeat, MethodKind::kFastMarching}) {
-    const auto result = made(box_and_a_vertex(), kind)->solve(SourceSet::of_vertices({8}));
+    const auto result = space_method(box_and_a_vertex(), kind)->solve(SourceSet::of_vertices({8}));
     ASSERT_FALSE(result) << to_text(kind);
     EXPECT_EQ(result.error().message, "source vertex 8 is in no tet");
   }
 }
 
 TEST(ReachInSpaces, IsCheckedBeforeTheMarch) {
-  const auto method = made(square_grid(300), MethodKind::kFastMarching);
+  const auto method = space_method(square_grid(300), MethodKind::kFastMarching);
   bool marched = false;
   const Progress watch = [&marched](std::string_view, double) { return marched = true; };
   const SourceSet corner = SourceSet::of_vertices({0});
