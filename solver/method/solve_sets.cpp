@@ -11,6 +11,7 @@
 #include "solver/core/parallel.h"
 
 namespace geotherm {
+
 std::optional<JobFailure> share_out_jobs(std::size_t jobs, int threads, HelperPool& helpers,
                                          const Progress& progress, const Job& job) {
   SharedProgress shared(progress);
