@@ -53,9 +53,7 @@ Built on_waves(std::shared_ptr<const WaveSurface> waves, const MethodOptions& op
 
 /// The surface that a method walks over; null for methods that walk over none.
 std::shared_ptr<const WaveSurface> waves_of(const DistanceMethod* method) {
-  if (const auto* wave = dynamic_cast<const WavefrontMethod*>(method)) return wave->surface();
-  if (const auto* march = dynamic_cast<const FastMarchingMethod*>(method)) return march->surface();
-  if (const auto* exact = dynamic_cast<const ExactMethod*>(method)) return exact->surface();
+  if (const auto* waves = dynamic_cast<const WaveMethod*>(method)) return waves->surface();
   return nullptr;
 }
 
@@ -207,7 +205,7 @@ Built build_method_moved(std::shared_ptr<const TriangleMesh> moved, const Method
 }
 
 Built build_method(std::shared_ptr<const TetMesh> mesh, const MethodOptions& options,
-                   const Progress& progress) {
+                   const Progress& progress) try {
   if (auto fits = check_space_options(options, "volume"); !fits) return fits.error();
   if (options.method == MethodKind::kFastMarching) {
     return build_tet_marching(std::move(mesh), options.threads, progress);
@@ -216,6 +214,8 @@ Built build_method(std::shared_ptr<const TetMesh> mesh, const MethodOptions& opt
   if (!made) return made.error();
   return as_heat(
       HeatMethod::build(std::make_shared<const CellComplex>(*std::move(made)), options, progress));
+} catch (const std::bad_alloc&) {
+  return memory_ended(options);
 }
 
 Built build_method(std::shared_ptr<const Grid> grid, const MethodOptions& options,

@@ -152,6 +152,21 @@ std::vector<Sum> sums_of_blocks(int threads, std::int64_t count, Part&& part) {
   return sums;
 }
 
+/// What part(begin, end, list) appends on each block of `grain` that [0, count) is cut into, in
+/// this order. Exceptions as of parallel_for().
+template <class T, class Part>
+std::vector<T> list_in_parallel(int threads, std::int64_t count, std::int64_t grain, Part&& part) {
+  std::vector<std::vector<T>> lists(static_cast<std::size_t>((count + grain - 1) / grain));
+  parallel_for(threads, std::ssize(lists), 1, [&](std::int64_t first, std::int64_t last) {
+    for (std::int64_t b = first; b < last; ++b) {
+      part(b * grain, std::min(count, (b + 1) * grain), lists[static_cast<std::size_t>(b)]);
+    }
+  });
+  std::vector<T> all;
+  for (const std::vector<T>& list : lists) all.insert(all.end(), list.begin(), list.end());
+  return all;
+}
+
 /// The sum of part(begin, end) over such blocks.
 template <class Part>
 double parallel_sum(int threads, std::int64_t count, Part&& part) {

@@ -8,6 +8,7 @@
 #include <cstring>
 #include <limits>
 #include <numeric>
+#include <utility>
 #include <vector>
 
 #include "geotherm/types.h"
@@ -147,6 +148,11 @@ class DisjointSets {
     a = root(a);
     b = root(b);
     parent_[std::max(a, b)] = std::min(a, b);
+  }
+  /// root() of every number.
+  std::vector<Index> roots() && {
+    for (Index& parent : parent_) parent = parent_[parent];  // which is lower, and a root by now
+    return std::move(parent_);
   }
 
  private:

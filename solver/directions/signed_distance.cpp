@@ -5,10 +5,10 @@
 #include <limits>
 #include <map>
 #include <new>
-#include <numeric>
 #include <optional>
 #include <utility>
 
+#include "solver/core/sorting.h"
 #include "solver/directions/curve_pieces.h"
 #include "solver/directions/directions_state.h"
 #include "solver/geometry/edit.h"
@@ -24,9 +24,10 @@ using CurveLayout = std::array<Point2, 3>;
 class Parts {
  public:
   Parts(const Directions::State& state, const CurvePieces& curves)
-      : state_(state), curves_(curves), root_(curves.on_curve.size()), sides_(root_.size()) {
-    std::iota(root_.begin(), root_.end(), Index{0});
-  }
+      : state_(state),
+        curves_(curves),
+        parts_(curves.on_curve.size()),
+        sides_(curves.on_curve.size()) {}
 
   enum class Sides {
     kFound,
@@ -39,7 +40,7 @@ class Parts {
     const EdgeTable& edges = state_.paths.edges();
     for (Index e = 0; e < edges.edge_count(); ++e) {
       if (curves_.touched[e] == 0 && !on_curve(edges.low(e)) && !on_curve(edges.high(e))) {
-        root_[find_root(edges.low(e))] = find_root(edges.high(e));
+        parts_.join(edges.low(e), edges.high(e));
       }
     }
     vote();
@@ -59,7 +60,7 @@ class Parts {
 
   /// -1 to the left of the curves, 1 to the right, 0 where they are not.
   int sign(Index v) {
-    const int sides = sides_[find_root(v)];
+    const int sides = sides_[parts_.root(v)];
     return (sides & kLeft) != 0 ? -1 : (sides & kRight) != 0 ? 1 : 0;
   }
 
@@ -67,10 +68,6 @@ class Parts {
   enum : int { kLeft = 1, kRight = 2 };
 
   bool on_curve(Index v) const { return curves_.on_curve[v] != 0; }
-  Index find_root(Index v) {
-    while (root_[v] != v) v = root_[v] = root_[root_[v]];
-    return v;
-  }
 
   /// The corners of a face are on the side of the piece nearest to them there; where two meet, on
   /// that of their mean normal.
@@ -86,7 +83,7 @@ class Parts {
         const auto [side, curve] = side_of(at, at[k], {pieces.data() + begin, pieces.data() + end});
         has_no_side_ = has_no_side_ || side == 0;
         if (side == 0) continue;
-        const Index part = find_root(state_.paths.face(face)[k]);
+        const Index part = parts_.root(state_.paths.face(face)[k]);
         beside_[{part, curve}] |= side > 0 ? kLeft : kRight;
         sides_[part] |= side > 0 ? kLeft : kRight;
       }
@@ -117,7 +114,7 @@ class Parts {
 
   const Directions::State& state_;
   const CurvePieces& curves_;
-  std::vector<Index> root_;
+  DisjointSets parts_;
   std::vector<int> sides_;    ///< of curves that a part is on, at its root
   bool has_no_side_ = false;  ///< a corner beside a curve that is on neither of its sides
   std::map<std::pair<Index, std::size_t>, int> beside_;  ///< sides of a curve that a part is on

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "solver/core/sorting.h"
 #include "solver/core/text.h"
 #include "solver/linear/backend_registry.h"
 #include "solver/mesh/connectivity.h"
@@ -210,22 +211,6 @@ std::vector<char> own_faces(const MeshPart& part, const MeshBlock& block) {
 
 namespace {
 
-/// The least vertex that is known to be in the same component, by union of sets.
-class Names {
- public:
-  explicit Names(const MeshPart& part) : parent_(static_cast<std::size_t>(part.size())) {
-    for (Index v = 0; v < part.size(); ++v) parent_[v] = v;
-  }
-  Index root(Index v) {
-    while (parent_[v] != v) v = parent_[v] = parent_[parent_[v]];
-    return v;
-  }
-  void join(Index a, Index b) { parent_[root(a)] = root(b); }
-
- private:
-  std::vector<Index> parent_;
-};
-
 /// The lengths of the edges that this rank counts, and how many, by components.
 void add_edges(const MeshPart& part, SharedComponents& out) {
   std::vector<std::pair<Index, Index>> edges;
@@ -249,7 +234,7 @@ void add_edges(const MeshPart& part, SharedComponents& out) {
 }  // namespace
 
 Result<SharedComponents> name_components(const RankGroup& ranks, const MeshPart& part) {
-  Names names(part);
+  DisjointSets names(static_cast<std::size_t>(part.size()));
   std::vector<char> used(static_cast<std::size_t>(part.size()), 0);
   for (const Face& face : part.corners) {
     if (repeats_corner(face)) continue;

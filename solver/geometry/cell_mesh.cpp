@@ -18,37 +18,6 @@ constexpr double kConsistentWidth = 1.6, kLumpedWidth = 3.2;
 
 /// Minimum rows or cells per thread.
 constexpr std::int64_t kCellGrain = 1 << 12;
-/// Rows of a range, and the maximum number of ranges: as for triangle meshes.
-constexpr Index kRowsOfCellRange = 8192, kMaxCellRanges = 32;
-
-/// Brings the cells that cross from one range of rows to another to the end.
-std::vector<CellRange> part_cells(const CellComplex& cells, std::span<const Index> row_of,
-                                  Index size, RawVector<Index>& sorted) {
-  const Index count = std::clamp<Index>(size / kRowsOfCellRange, 1, kMaxCellRanges);
-  std::vector<CellRange> ranges;
-  RawVector<Index> parted, crossing;
-  parted.reserve(sorted.size());
-  std::size_t next = 0;
-  for (Index r = 0; r < count; ++r) {
-    CellRange range{static_cast<Index>(std::int64_t{size} * r / count),
-                    static_cast<Index>(std::int64_t{size} * (r + 1) / count),
-                    static_cast<Index>(parted.size()), 0};
-    for (; next < sorted.size(); ++next) {
-      Index low = size, high = 0;
-      for (const Index v : cells.corners_of(sorted[next])) {
-        low = std::min(low, row_of[v]);
-        high = std::max(high, row_of[v]);
-      }
-      if (low >= range.end_row) break;
-      (high < range.end_row ? parted : crossing).push_back(sorted[next]);
-    }
-    range.end_cell = static_cast<Index>(parted.size());
-    ranges.push_back(range);
-  }
-  parted.insert(parted.end(), crossing.begin(), crossing.end());
-  sorted = std::move(parted);
-  return ranges;
-}
 
 /// Builds the parts of a CellMesh one after the other.
 class CellMeshBuilder {
@@ -68,14 +37,9 @@ class CellMeshBuilder {
     const auto count = static_cast<std::size_t>(cells_.cell_count());
     out_.dimension = cells_.dimension;
     out_.given_cell =
-        sorted_by_key(count, static_cast<std::size_t>(size_), threads_, [&](std::size_t c) {
-          Index low = size_;
-          for (const Index v : cells_.corners_of(static_cast<Index>(c))) {
-            low = std::min(low, row_of_[v]);
-          }
-          return low;
-        });
-    out_.ranges = part_cells(cells_, row_of_, size_, out_.given_cell);
+        sorted_by_key(count, static_cast<std::size_t>(size_), threads_,
+                      [&](std::size_t c) { return low_high(static_cast<Index>(c)).first; });
+    out_.ranges = part_by_rows(size_, out_.given_cell, [&](Index c) { return low_high(c); });
     out_.crossing = out_.ranges.back().end_cell;
     const double mean = std::accumulate(cells_.measures.begin(), cells_.measures.end(), 0.0) /
                         static_cast<double>(count);
@@ -192,6 +156,15 @@ class CellMeshBuilder {
     return out_.shares[static_cast<std::size_t>(out_.start[c] + k)];
   }
 
+  std::pair<Index, Index> low_high(Index c) const {
+    Index low = size_, high = 0;
+    for (const Index v : cells_.corners_of(c)) {
+      low = std::min(low, row_of_[v]);
+      high = std::max(high, row_of_[v]);
+    }
+    return {low, high};
+  }
+
   /// The entry of the consistent mass matrix for two corners of a plane cell with the measure 1. It
   /// is proportional to the shares of both: for a triangle, whose shares are 1/3, it is 1/12, the
   /// integral of the product of two hat functions.
@@ -221,18 +194,6 @@ Eigen::Matrix3d inverse_along(const Eigen::Matrix3d& square) {
     if (sizes[i] > rounded) out += axis * axis.transpose() / sizes[i];
   }
   return out;
-}
-
-void name_components(const Components& parts, std::span<const Index> order, Components& out) {
-  out.count = parts.count;
-  out.of.resize(order.size());
-  std::vector<Index> name(static_cast<std::size_t>(parts.count), kNoIndex);
-  Index named = 0;
-  for (std::size_t k = 0; k < order.size(); ++k) {
-    Index& here = name[parts.of[order[k]]];
-    if (here == kNoIndex) here = named++;
-    out.of[k] = here;
-  }
 }
 
 CellPattern pattern_of_cells(const CellComplex& cells, int threads) {

@@ -12,6 +12,7 @@
 #include "solver/core/memory.h"
 #include "solver/core/sorting.h"
 #include "solver/geometry/domain_operator.h"
+#include "solver/geometry/row_ranges.h"
 #include "solver/linear/symmetric_pattern.h"
 
 namespace geotherm {
@@ -51,13 +52,6 @@ struct CellPattern {
 };
 CellPattern pattern_of_cells(const CellComplex& cells, int threads);
 
-/// Cells whose corners all lie in one range of rows: what they add to their corners meets nothing
-/// that another range's cells add.
-struct CellRange {
-  Index first_row, end_row;
-  Index first_cell, end_cell;
-};
-
 /// Mass and stiffness of cells, rows in elimination order.
 struct CellMatrix {
   std::vector<double> mass;   ///< n, > 0
@@ -80,9 +74,6 @@ struct CellMatrix {
 void apply_stiffness(const CellMatrix& matrix, std::span<const double> x, std::span<double> y,
                      int threads);
 
-/// The components of a pattern as an elimination order numbers them anew.
-void name_components(const Components& parts, std::span<const Index> order, Components& out);
-
 /// A CellComplex as the solvers walk it: vertices in elimination order, cells sorted to follow
 /// them. Lengths are in units of `unit`, measures relative to their mean: a and s of a A + s L
 /// scale alike, so that no answer depends on it.
@@ -97,7 +88,7 @@ struct CellMesh : CellMatrix {
   RawVector<double> shares;         ///< of the measure, to each corner; empty: all are equal
   std::vector<double> mean_width;   ///< of each component's cells
   RawVector<Index> given_cell;      ///< C: number in the CellComplex
-  std::vector<CellRange> ranges;    ///< all rows, in order; the same for every thread count
+  std::vector<RowRange> ranges;     ///< all rows, in order; the same for every thread count
   Index crossing = 0;               ///< cells from here on have corners in several ranges
   CellTable cells_at;               ///< of each row
 

@@ -144,15 +144,12 @@ void FemOperator::subtract_faces(Index first_face, Index end_face, const Block& 
 }
 
 void FemOperator::residual(const Block& b, const Block& x, Block& r, int threads) const {
-  parallel_for(threads, std::ssize(mesh_->ranges), 1, [&](std::int64_t begin, std::int64_t end) {
+  for_ranges(mesh_->ranges, threads, 1, [&](const RowRange& range) {
     const FlushDenormals flush;
-    for (std::int64_t at = begin; at < end; ++at) {
-      const FaceRange& range = mesh_->ranges[static_cast<std::size_t>(at)];
-      for (Index i = range.first_row; i < range.end_row; ++i) {
-        r.row(i) = b.row(i) - mass_factor_ * mesh_->mass[i] * x.row(i);
-      }
-      subtract_faces(range.first_face, range.end_face, x, r);
+    for (Index i = range.first_row; i < range.end_row; ++i) {
+      r.row(i) = b.row(i) - mass_factor_ * mesh_->mass[i] * x.row(i);
     }
+    subtract_faces(range.first_cell, range.end_cell, x, r);
   });
   const FlushDenormals flush;
   subtract_faces(mesh_->crossing, mesh_->face_count(), x, r);
@@ -219,22 +216,18 @@ std::vector<ColumnSet> FemOperator::columns_beside(std::span<const ColumnSet> se
     }
   };
   std::mutex mutex;
-  // Faces of a range meet no rows of another's.
-  parallel_for(threads, std::ssize(mesh_->ranges), kRangesPerThread,
-               [&](std::int64_t begin, std::int64_t end) {
-                 std::vector<Index> here;
-                 for (; begin < end; ++begin) {
-                   const FaceRange& range = mesh_->ranges[static_cast<std::size_t>(begin)];
-                   unsigned some = 0, all = ~0U;
-                   for (Index i = range.first_row; i < range.end_row; ++i) {
-                     some |= sets[i];
-                     all &= sets[i];
-                   }
-                   if (some != all) look(range.first_face, range.end_face, here);
-                 }
-                 const std::lock_guard lock(mutex);
-                 listed.insert(listed.end(), here.begin(), here.end());
-               });
+  for_ranges(mesh_->ranges, threads, kRangesPerThread, [&](const RowRange& range) {
+    unsigned some = 0, all = ~0U;
+    for (Index i = range.first_row; i < range.end_row; ++i) {
+      some |= sets[i];
+      all &= sets[i];
+    }
+    if (some == all) return;
+    std::vector<Index> here;
+    look(range.first_cell, range.end_cell, here);
+    const std::lock_guard lock(mutex);
+    listed.insert(listed.end(), here.begin(), here.end());
+  });
   look(mesh_->crossing, mesh_->face_count(), listed);
   return out;
 }

@@ -224,8 +224,8 @@ double GridLattice::edge_weight(Index sample, int e) const {
   return sum / (1 << (dimension_ - 1));
 }
 
-GridPattern pattern_of_grid(const GridLattice& lattice) {
-  GridPattern out;
+CellPattern pattern_of_grid(const GridLattice& lattice) {
+  CellPattern out;
   const Index samples = lattice.grid().sample_count();
   out.local.assign(static_cast<std::size_t>(samples), kNoIndex);
   const auto is_behind = [&](Index v, int e) {
@@ -258,7 +258,7 @@ GridPattern pattern_of_grid(const GridLattice& lattice) {
 }
 
 std::shared_ptr<const CellMatrix> build_grid_matrix(const GridLattice& lattice,
-                                                    const GridPattern& pattern,
+                                                    const CellPattern& pattern,
                                                     std::span<const Index> order, double unit,
                                                     double mean_measure, int threads) {
   auto out = std::make_shared<CellMatrix>();

@@ -111,20 +111,14 @@ class GridLattice {
 
 /// The passing samples that have a neighbour, and which are neighbours: the pattern of every
 /// matrix, which has five entries a row in two dimensions and seven in three.
-struct GridPattern {
-  std::vector<Index> vertices;  ///< ascending
-  std::vector<Index> local;     ///< V: number among them, or kNoIndex
-  SymmetricPattern pattern;
-  Components parts;
-};
-GridPattern pattern_of_grid(const GridLattice& lattice);
+CellPattern pattern_of_grid(const GridLattice& lattice);
 
 /// Mass and stiffness of a grid in elimination order. Each cell gives its edges equal shares of its
 /// measure: that is its gradient at the middle and a positive semidefinite rest, with no entry
 /// above 0 off the diagonal, so that heat stays positive. Lengths are in units of `unit`, measures
 /// relative to their mean.
 std::shared_ptr<const CellMatrix> build_grid_matrix(const GridLattice& lattice,
-                                                    const GridPattern& pattern,
+                                                    const CellPattern& pattern,
                                                     std::span<const Index> order, double unit,
                                                     double mean_measure, int threads);
 

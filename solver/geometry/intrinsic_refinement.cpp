@@ -59,26 +59,20 @@ bool is_obtuse_boundary(const IntrinsicMesh& mesh, Side side) {
 RefinementNeeds find_refinement_needs(const IntrinsicMesh& mesh, const Components& parts,
                                       std::span<const double> part_edge, int threads) {
   constexpr std::int64_t kGrain = 1 << 15;  // minimum faces per thread
-  const auto count = static_cast<std::int64_t>(mesh.faces.size());
-  const int pieces = piece_count(threads, count, kGrain);
-  std::vector<RefinementNeeds> found(static_cast<std::size_t>(pieces));
-  for_pieces(pieces, count, [&](int piece, std::int64_t begin, std::int64_t end) {
-    RefinementNeeds& here = found[static_cast<std::size_t>(piece)];
+  const auto list_large = [&](std::int64_t begin, std::int64_t end, std::vector<Index>& list) {
     for (auto f = static_cast<Index>(begin); f < static_cast<Index>(end); ++f) {
       const double edge = parts.count == 1 ? part_edge[0] : part_edge[parts.of[mesh.faces[f][0]]];
       const auto& l = mesh.lengths[f];
-      if (std::max({l[0], l[1], l[2]}) > kLongest * edge) here.large.push_back(f);
-      for (Side side = 3 * f; side < 3 * f + 3; ++side) {
-        if (is_obtuse_boundary(mesh, side)) here.obtuse.push_back(side);
-      }
+      if (std::max({l[0], l[1], l[2]}) > kLongest * edge) list.push_back(f);
     }
-  });
-  RefinementNeeds out = std::move(found.front());
-  for (std::size_t p = 1; p < found.size(); ++p) {
-    out.large.insert(out.large.end(), found[p].large.begin(), found[p].large.end());
-    out.obtuse.insert(out.obtuse.end(), found[p].obtuse.begin(), found[p].obtuse.end());
-  }
-  return out;
+  };
+  const auto list_obtuse = [&](std::int64_t begin, std::int64_t end, std::vector<Side>& list) {
+    for (auto side = static_cast<Side>(begin); side < static_cast<Side>(end); ++side) {
+      if (is_obtuse_boundary(mesh, side)) list.push_back(side);
+    }
+  };
+  return {list_in_parallel<Index>(threads, std::ssize(mesh.faces), kGrain, list_large),
+          list_in_parallel<Side>(threads, std::ssize(mesh.twin), 3 * kGrain, list_obtuse)};
 }
 
 namespace {

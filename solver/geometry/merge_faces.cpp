@@ -40,15 +40,15 @@ class FaceMerge {
     });
     std::ranges::sort(changed, {}, &ChangedFace::key);
     auto next = changed.begin();
-    for (const FaceRange& before : earlier_.ranges) {
-      FaceRange range{out_.ranges.empty() ? 0 : out_.ranges.back().end_row, end_now(before.end_row),
-                      filled_, 0};
+    for (const RowRange& before : earlier_.ranges) {
+      RowRange range{out_.ranges.empty() ? 0 : out_.ranges.back().end_row, end_now(before.end_row),
+                     filled_, 0};
       fitting.clear();
       for (; next != changed.end() && next->key().first < range.end_row; ++next) {
         (std::ranges::max(next->corners) < range.end_row ? fitting : crossing).push_back(*next);
       }
-      merge(before.first_face, before.end_face, fitting);
-      range.end_face = filled_;
+      merge(before.first_cell, before.end_cell, fitting);
+      range.end_cell = filled_;
       out_.ranges.push_back(range);
     }
     out_.crossing = filled_;

@@ -57,41 +57,6 @@ namespace {
 /// Minimum faces or vertices per thread.
 constexpr std::int64_t kMinItemsPerThread = 1 << 13;
 
-/// Rows of a range: some 0.1 ms of work for a pass over its faces, several times what it takes to
-/// start a thread. Eliminated one after the other, they are a patch or a few: 2 to 5 % of the faces
-/// cross.
-constexpr Index kRowsOfRange = 8192;
-/// The maximum number of ranges: more would make more faces cross without keeping more cores busy.
-constexpr Index kMaxRanges = 32;
-
-Index range_count(Index size) { return std::clamp<Index>(size / kRowsOfRange, 1, kMaxRanges); }
-
-/// Brings the faces that cross from one range of rows to another to the end; all stay in order
-/// otherwise. Gives the ranges.
-std::vector<FaceRange> part_by_ranges(const RawVector<Face>& faces, Index size,
-                                      RawVector<Index>& sorted) {
-  const Index count = range_count(size);
-  std::vector<FaceRange> ranges;
-  RawVector<Index> parted, crossing;
-  parted.reserve(sorted.size());
-  std::size_t next = 0;
-  for (Index r = 0; r < count; ++r) {
-    FaceRange range{static_cast<Index>(std::int64_t{size} * r / count),
-                    static_cast<Index>(std::int64_t{size} * (r + 1) / count),
-                    static_cast<Index>(parted.size()), 0};
-    for (; next < sorted.size(); ++next) {
-      const auto [low, high] = std::ranges::minmax(faces[sorted[next]]);
-      if (low >= range.end_row) break;
-      (high < range.end_row ? parted : crossing).push_back(sorted[next]);
-    }
-    range.end_face = static_cast<Index>(parted.size());
-    ranges.push_back(range);
-  }
-  parted.insert(parted.end(), crossing.begin(), crossing.end());
-  sorted = std::move(parted);
-  return ranges;
-}
-
 /// Builds the parts of an OperatorMesh one after the other, each by all threads.
 class Builder {
  public:
@@ -115,8 +80,9 @@ class Builder {
     out_.intrinsic_face = sorted_by_key(renamed_.size(), size_, threads_, [this](std::size_t f) {
       return std::min({renamed_[f][0], renamed_[f][1], renamed_[f][2]});
     });
-    out_.ranges = part_by_ranges(renamed_, static_cast<Index>(size_), out_.intrinsic_face);
-    out_.crossing = out_.ranges.back().end_face;
+    out_.ranges = part_by_rows(static_cast<Index>(size_), out_.intrinsic_face,
+                               [this](Index f) { return std::ranges::minmax(renamed_[f]); });
+    out_.crossing = out_.ranges.back().end_cell;
     out_.faces.resize(renamed_.size());
     out_.layout.resize(renamed_.size());
     for_each(renamed_.size(), [&](std::size_t f) {
@@ -172,21 +138,10 @@ class Builder {
     });
   }
 
-  /// Numbers the components anew in elimination order. part(row): component of the row so far.
-  template <class Part>
-  void name_components(Index count, const Part& part) {
-    out_.components.count = count;
-    out_.components.of.assign(size_, 0);
-    if (count > 1) {
-      std::vector<Index> name(static_cast<std::size_t>(count), kNoIndex);
-      Index named = 0;
-      for (std::size_t k = 0; k < size_; ++k) {
-        Index& here = name[part(k)];
-        if (here == kNoIndex) here = named++;
-        out_.components.of[k] = here;
-      }
-    }
-    out_.doubled.assign(static_cast<std::size_t>(count), 0);
+  /// Numbers the components anew in elimination order, which is given by numbers in `parts`.
+  void name_components(const Components& parts, std::span<const Index> order) {
+    geotherm::name_components(parts, order, out_.components);
+    out_.doubled.assign(static_cast<std::size_t>(parts.count), 0);
     for (std::size_t f = 0; f < out_.faces.size() && !mesh_.back.empty(); ++f) {
       const auto of_mesh = static_cast<std::size_t>(out_.intrinsic_face[f]);
       if (of_mesh < mesh_.back.size() && mesh_.back[of_mesh] != kNoIndex) {
@@ -249,7 +204,7 @@ std::shared_ptr<const OperatorMesh> build_operator_mesh(const IntrinsicMesh& mes
   builder.sort_faces();
   builder.lay_out_faces();
   builder.add_up_faces();
-  builder.name_components(parts.count, [&](std::size_t k) { return parts.of[order[k]]; });
+  builder.name_components(parts, order);
   builder.add_up_areas();
   return out;
 }
@@ -270,8 +225,7 @@ std::shared_ptr<const OperatorMesh> follow_order(
       [&] {
         builder.lay_out_faces();
         builder.add_up_faces();
-        builder.name_components(parts.count,
-                                [&](std::size_t k) { return parts.of[vertex_of_row[k]]; });
+        builder.name_components(parts, vertex_of_row);
         builder.add_up_areas();
         out->lower = lower_of(pattern, half);
         out->pattern = pattern_hash(out->lower, half);
@@ -310,8 +264,7 @@ std::shared_ptr<const OperatorMesh> update_operators(
       threads,
       [&] {
         builder.add_up_faces(earlier, changes);
-        builder.name_components(parts.count,
-                                [&](std::size_t k) { return parts.of[vertex_of_row[k]]; });
+        builder.name_components(parts, vertex_of_row);
         builder.add_up_areas();
         out->pattern = pattern_hash(out->lower, half);
       },

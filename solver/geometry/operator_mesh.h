@@ -10,6 +10,7 @@
 #include "geotherm/backend.h"
 #include "solver/core/memory.h"
 #include "solver/geometry/intrinsic_mesh.h"
+#include "solver/geometry/row_ranges.h"
 #include "solver/linear/symmetric_pattern.h"
 #include "solver/mesh/connectivity.h"
 
@@ -23,20 +24,13 @@ SymmetricPattern surface_pattern(const IntrinsicMesh& mesh, const CornerTable& c
                                  std::span<const Index> used, std::span<const Index> local,
                                  int threads);
 
-/// Faces whose corners all lie in one range of rows: what they add to their corners meets nothing
-/// that another range's faces add, so that ranges can be walked side by side.
-struct FaceRange {
-  Index first_row, end_row;
-  Index first_face, end_face;
-};
-
 /// The surface as the solvers walk it: vertices in elimination order, faces sorted to follow them,
 /// each face laid out in its own plane. Lengths are in units of IntrinsicMesh::unit.
 struct OperatorMesh {
   RawVector<Face> faces;                 ///< F x 3, elimination numbers
   RawVector<FaceLayout> layout;          ///< F
   RawVector<Index> intrinsic_face;       ///< F: number of the face in the IntrinsicMesh
-  std::vector<FaceRange> ranges;         ///< all rows, in order; the same for every thread count
+  std::vector<RowRange> ranges;          ///< all rows, in order; the same for every thread count
   Index crossing = 0;                    ///< faces from here on have corners in several ranges
   RawVector<double> mass;                ///< n: a third of the incident areas, > 0
   RawVector<double> stiffness_diagonal;  ///< n: diagonal of L

@@ -37,13 +37,7 @@ class GridMarch {
   }
 
   Result<void> add_point(const CellPoint& point) {
-    const bool there = point.cell >= 0 && point.cell < grid_.sample_count() &&
-                       lattice_.has_cell(point.cell) && std::ssize(point.weights) == 1 << d_;
-    if (!there) {
-      return Error{ErrorCode::kBadInput,
-                   "the source in cell " + std::to_string(point.cell) +
-                       " is not there, or has not a weight for each of its corners"};
-    }
+    if (auto valid = check_cell_point(lattice_, point); !valid) return valid;
     const GridCell cell = lattice_.cell(point.cell);
     GridPlace at{};
     for (int k = 0; k < cell.count; ++k) {
@@ -290,12 +284,15 @@ class GridMarch {
 
 class GridMarchingMethod final : public MarchingMethod {
  public:
-  GridMarchingMethod(GridLattice lattice, double setup_ms, int threads, double nanoseconds)
-      : MarchingMethod(lattice.grid().sample_count() / double(1 << 20), setup_ms, threads,
-                       nanoseconds),
+  GridMarchingMethod(GridLattice lattice, double setup_ms, int threads)
+      : MarchingMethod(lattice.grid().sample_count(),
+                       lattice.grid().sample_count() / double(1 << 20), setup_ms, threads,
+                       kNanosecondsOfSample),
         lattice_(std::move(lattice)) {}
 
  private:
+  static constexpr double kNanosecondsOfSample = 500;
+
   Result<Marched> march(const SourceSet& sources, const Progress& progress) const override {
     if (auto valid = check_space_sources(sources, "samples or points of cells"); !valid) {
       return valid.error();
@@ -342,17 +339,25 @@ class GridMarchingMethod final : public MarchingMethod {
 
 }  // namespace
 
+Result<void> check_cell_point(const GridLattice& lattice, const CellPoint& point) {
+  if (point.cell < 0 || point.cell >= lattice.grid().sample_count() ||
+      !lattice.has_cell(point.cell)) {
+    return Error{ErrorCode::kBadInput,
+                 "at sample " + std::to_string(point.cell) + " begins no cell"};
+  }
+  return check_weights(point.weights, std::size_t{1} << lattice.dimension(),
+                       "cell " + std::to_string(point.cell));
+}
+
 Result<std::shared_ptr<const DistanceMethod>> build_grid_marching(std::shared_ptr<const Grid> grid,
                                                                   int threads,
                                                                   const Progress& progress) {
   if (auto valid = check_grid(*grid); !valid) return valid.error();
   if (!report(progress, "operators", 0.0)) return cancelled_error();
   const Stopwatch watch;
-  constexpr double kNanosecondsOfSample = 500;
-  const double nanoseconds = kNanosecondsOfSample * grid->sample_count();
   GridLattice lattice(std::move(grid));
   return std::shared_ptr<const DistanceMethod>(std::make_shared<const GridMarchingMethod>(
-      std::move(lattice), watch.milliseconds(), threads, nanoseconds));
+      std::move(lattice), watch.milliseconds(), threads));
 }
 
 std::vector<NearSample> march_near(const GridLattice& lattice, std::span<const Index> samples,

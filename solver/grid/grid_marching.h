@@ -23,6 +23,10 @@ Result<std::shared_ptr<const DistanceMethod>> build_grid_marching(std::shared_pt
                                                                   int threads,
                                                                   const Progress& progress = {});
 
+/// Whether a point is in a cell, whose number is that of its lowest corner, and its weights are as
+/// check_weights() has them. Errors: kBadInput.
+Result<void> check_cell_point(const GridLattice& lattice, const CellPoint& point);
+
 /// Distance of a sample, model units.
 struct NearSample {
   Index sample;

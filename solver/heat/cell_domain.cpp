@@ -19,7 +19,7 @@ namespace geotherm {
 namespace {
 
 /// Share of the work at which the analysis begins, and ends.
-constexpr double kCellsAnalyzedFrom = 0.3, kCellsAnalyzedTo = 0.7;
+constexpr double kCellsAnalyzedFrom = 0.3, kAnalyzedTo = 0.7;
 
 /// Sizes of the components; the mean edge of one is the mean of its cells' widths.
 std::vector<ComponentSize> measure_cells(const CellMesh& mesh) {
@@ -109,12 +109,8 @@ class CellInput final : public Domain::Input {
   }
   Result<std::shared_ptr<const Domain>> make(const Backend& backend, LaplacianKind laplacian,
                                              int threads, const Progress& progress) const override {
-    if (laplacian != LaplacianKind::kAuto && laplacian != LaplacianKind::kCotan) {
-      return Error{ErrorCode::kBadInput,
-                   "the Laplacian " + to_text(laplacian) +
-                       " is of triangle meshes, and these are " + cells_->cells_name,
-                   {"use ", SettingHint{"laplacian", {"auto"}}}};
-    }
+    auto fits = refuse_laplacian(laplacian, "these are " + cells_->cells_name);
+    if (!fits) return fits.error();
     Stopwatch watch;
     if (!report(progress, "operators", 0.0)) return cancelled_error();
     if (const auto valid = check_cells(*cells_); !valid) return valid.error();
@@ -132,23 +128,27 @@ class CellInput final : public Domain::Input {
     const CellPattern pattern = pattern_of_cells(cells, threads);
     out->timing.operators = watch.lap();
 
-    if (!report(progress, "analyze", kCellsAnalyzedFrom)) return cancelled_error();
     std::vector<Vec3> places;
     if (!cells.positions.empty()) {
       for (const Index v : pattern.vertices) places.push_back(cells.positions[v]);
     }
-    auto analysis = backend.analyze(pattern.pattern, places, threads);
-    if (!analysis) return analysis.error();
-    out->analysis = std::move(*analysis);
-    out->timing.analyze = watch.lap();
+    auto done =
+        out->analyze(backend, pattern, places, threads, progress, kCellsAnalyzedFrom, watch);
+    if (!done) return done.error();
 
-    if (!report(progress, "operators", kCellsAnalyzedTo)) return cancelled_error();
-    const std::span<const Index> order = out->analysis->order();
     const bool has_border =
         std::ranges::count(cells_->on_boundary, 0) != std::ssize(cells_->on_boundary);
     if (cells_->dimension == 3 && has_border) out->auto_boundary = BoundaryRule::kAverage;
-    out->mesh = build_cell_mesh(cells, pattern, order, out->unit, threads);
-    number_rows(pattern, order, *out);
+    out->mesh = build_cell_mesh(cells, pattern, out->analysis->order(), out->unit, threads);
+    out->matrix = out->mesh;
+    out->input_vertices = cells_->vertices;
+    for (const Index v : out->vertex_of_row) {
+      out->on_boundary.push_back(cells.on_boundary.empty() ? 0 : cells.on_boundary[v]);
+    }
+    out->cell_of_given.resize(out->mesh->given_cell.size());
+    for (std::size_t c = 0; c < out->cell_of_given.size(); ++c) {
+      out->cell_of_given[out->mesh->given_cell[c]] = static_cast<Index>(c);
+    }
     out->components = measure_cells(*out->mesh);
     if (out->flipped) keep_width_of_flipped(*out);
     if (out->mesh->is_of_tets && !cells_->positions.empty() && cells_->lengths_are_straight) {
@@ -159,23 +159,6 @@ class CellInput final : public Domain::Input {
   }
 
  private:
-  void number_rows(const CellPattern& pattern, std::span<const Index> order,
-                   CellDomain& out) const {
-    const std::vector<char>& on_boundary = out.cells().on_boundary;
-    out.input_vertices = cells_->vertices;
-    out.row_of_vertex.assign(static_cast<std::size_t>(out.cells().vertices), kNoIndex);
-    for (std::size_t k = 0; k < order.size(); ++k) {
-      const Index vertex = pattern.vertices[order[k]];
-      out.vertex_of_row.push_back(vertex);
-      out.row_of_vertex[vertex] = static_cast<Index>(k);
-      out.on_boundary.push_back(on_boundary.empty() ? 0 : on_boundary[vertex]);
-    }
-    out.cell_of_given.resize(out.mesh->given_cell.size());
-    for (std::size_t c = 0; c < out.cell_of_given.size(); ++c) {
-      out.cell_of_given[out.mesh->given_cell[c]] = static_cast<Index>(c);
-    }
-  }
-
   std::shared_ptr<const CellComplex> cells_;
 };
 
@@ -185,18 +168,48 @@ std::shared_ptr<const Domain::Input> cell_input(std::shared_ptr<const CellComple
   return std::make_shared<const CellInput>(std::move(cells));
 }
 
-std::shared_ptr<const DomainOperator> CellDomain::combine(double mass_factor,
-                                                          const PerComponent& stiffness_factor,
-                                                          std::vector<Index> held,
-                                                          const PerComponent& consistent_share,
-                                                          int threads) const {
-  return std::make_shared<const CellOperator>(mesh, mass_factor, stiffness_factor, consistent_share,
-                                              std::move(held), threads);
+Result<void> refuse_laplacian(LaplacianKind laplacian, const std::string& space) {
+  if (laplacian == LaplacianKind::kAuto || laplacian == LaplacianKind::kCotan) return {};
+  return Error{ErrorCode::kBadInput,
+               "the Laplacian " + to_text(laplacian) + " is of triangle meshes, and " + space,
+               {"use ", SettingHint{"laplacian", {"auto"}}}};
 }
 
-void CellDomain::apply_stiffness(std::span<const double> x, std::span<double> y,
-                                 int threads) const {
-  geotherm::apply_stiffness(*mesh, x, y, threads);
+std::shared_ptr<const DomainOperator> MatrixDomain::combine(double mass_factor,
+                                                            const PerComponent& stiffness_factor,
+                                                            std::vector<Index> held,
+                                                            const PerComponent& consistent_share,
+                                                            int threads) const {
+  return std::make_shared<const CellOperator>(matrix, mass_factor, stiffness_factor,
+                                              consistent_share, std::move(held), threads);
+}
+
+void MatrixDomain::apply_stiffness(std::span<const double> x, std::span<double> y,
+                                   int threads) const {
+  geotherm::apply_stiffness(*matrix, x, y, threads);
+}
+
+Result<void> MatrixDomain::analyze(const Backend& backend, const CellPattern& pattern,
+                                   std::span<const Vec3> places, int threads,
+                                   const Progress& progress, double begins, Stopwatch& watch) {
+  if (!report(progress, "analyze", begins)) return cancelled_error();
+  auto made = backend.analyze(pattern.pattern, places, threads);
+  if (!made) return made.error();
+  analysis = std::move(*made);
+  timing.analyze = watch.lap();
+  if (!report(progress, "operators", kAnalyzedTo)) return cancelled_error();
+  std::vector<Index> vertices;
+  for (const Index i : analysis->order()) vertices.push_back(pattern.vertices[i]);
+  number_rows(std::move(vertices), static_cast<Index>(pattern.local.size()));
+  return {};
+}
+
+void MatrixDomain::bound_by_lines(std::span<const Vec3> positions, std::span<const Vec3> sources,
+                                  BelowLine below, int threads, DistanceResult& result) const {
+  std::vector<LineSource> lines;
+  for (const Vec3& at : sources) lines.push_back({at, at, 0.0});
+  geotherm::apply_straight_line_bound(positions, StraightLine(lines, unit), unit, 1,
+                                      bound_tolerance(MethodKind::kHeat), below, threads, result);
 }
 
 double CellDomain::length_within(Index cell, Index row, Index to) const {
@@ -228,10 +241,9 @@ void CellDomain::apply_straight_line_bound(const SourceSet& sources, BelowLine b
     result.quality.reached_vertices = count_reached(result.distances);
     return;
   }
-  std::vector<LineSource> lines;
+  std::vector<Vec3> places;
   for (const SurfacePoint& point : sources.points) {
-    const Vec3& at = given->positions[point.vertex];
-    lines.push_back({at, at, 0.0});
+    places.push_back(given->positions[point.vertex]);
   }
   for (const CellPoint& point : sources.cell_points) {
     const auto corners = given->corners_of(find_cell(point.cell));
@@ -240,10 +252,9 @@ void CellDomain::apply_straight_line_bound(const SourceSet& sources, BelowLine b
     for (std::size_t k = 1; k < corners.size(); ++k) {
       at += point.weights[k] * (given->positions[corners[k]] - first);
     }
-    lines.push_back({at, at, 0.0});
+    places.push_back(at);
   }
-  geotherm::apply_straight_line_bound(given->positions, StraightLine(lines, unit), unit, 1,
-                                      bound_tolerance(MethodKind::kHeat), below, threads, result);
+  bound_by_lines(given->positions, places, below, threads, result);
 }
 
 }  // namespace geotherm

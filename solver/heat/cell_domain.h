@@ -3,24 +3,53 @@
 
 #include <array>
 #include <memory>
+#include <span>
+#include <string>
 #include <vector>
 
 #include "geotherm/domains.h"
+#include "solver/core/stopwatch.h"
 #include "solver/geometry/cell_mesh.h"
 #include "solver/geometry/polygon_flips.h"
 #include "solver/heat/domain.h"
 
 namespace geotherm {
 
+/// A Domain whose operators are a CellMatrix.
+struct MatrixDomain : Domain {
+  std::shared_ptr<const CellMatrix> matrix;
+
+  const Components& parts_of_rows() const override { return matrix->components; }
+  std::span<const double> mass() const override { return matrix->mass; }
+  std::shared_ptr<const DomainOperator> combine(double mass_factor,
+                                                const PerComponent& stiffness_factor,
+                                                std::vector<Index> held,
+                                                const PerComponent& consistent_share,
+                                                int threads) const override;
+  void apply_stiffness(std::span<const double> x, std::span<double> y, int threads) const override;
+
+  /// Has a pattern analysed, whose vertices lie at these places, and numbers the rows. `begins`:
+  /// the share of the work at which that is. `watch`: of what came before.
+  Result<void> analyze(const Backend& backend, const CellPattern& pattern,
+                       std::span<const Vec3> places, int threads, const Progress& progress,
+                       double begins, Stopwatch& watch);
+  /// The straight-line bound where vertices and sources lie at these places, model units.
+  void bound_by_lines(std::span<const Vec3> positions, std::span<const Vec3> sources,
+                      BelowLine below, int threads, DistanceResult& result) const;
+};
+
+/// Errors (kBadInput): a Laplacian that triangle meshes alone have. `space`: "this is a grid".
+Result<void> refuse_laplacian(LaplacianKind laplacian, const std::string& space);
+
 /// A CellComplex made ready for the heat method.
-struct CellDomain final : Domain {
+struct CellDomain final : MatrixDomain {
   std::shared_ptr<const CellComplex> given;
   /// Polygons whose triangles were flipped; null elsewhere.
   std::shared_ptr<const FlippedPolygons> flipped;
   CellTable
       faces_at;  ///< of each given vertex, the first cells of its faces, where some were flipped
-  std::shared_ptr<const CellMesh> mesh;
-  std::vector<Index> cell_of_given;  ///< number in `mesh` of each of cells()
+  std::shared_ptr<const CellMesh> mesh;  ///< which is `matrix`, too
+  std::vector<Index> cell_of_given;      ///< number in `mesh` of each of cells()
 
   /// What `mesh` was made of: the cells that were given, or as many and then those that refinement
   /// has made. Vertices from `input_vertices` on are in no answer.
@@ -35,14 +64,6 @@ struct CellDomain final : Domain {
   /// The given cell that sources call by this number; kNoIndex: there is none.
   Index find_cell(Index number) const;
 
-  const Components& parts_of_rows() const override { return mesh->components; }
-  std::span<const double> mass() const override { return mesh->mass; }
-  std::shared_ptr<const DomainOperator> combine(double mass_factor,
-                                                const PerComponent& stiffness_factor,
-                                                std::vector<Index> held,
-                                                const PerComponent& consistent_share,
-                                                int threads) const override;
-  void apply_stiffness(std::span<const double> x, std::span<double> y, int threads) const override;
   Result<SourceAnchors> place(const SourceSet& sources) const override;
   std::unique_ptr<const UnitField> unit_field(const HeatField& heat, const PerComponent& t,
                                               const Workspace& work) const override;

@@ -205,16 +205,10 @@ Block CellField::divergence(std::span<const SourceAnchors> anchors) const {
   const CellMesh& mesh = *domain_.mesh;
   const Eigen::Index columns = heat_.u.cols();
   Block b = work_.pool.take(heat_.u.rows(), columns);
-  // Ranges write to rows of their own, then those cells follow that join them: each row has its sum
-  // in one order, with any number of threads.
-  parallel_for(work_.threads, std::ssize(mesh.ranges), kCellRanges,
-               [&](std::int64_t begin, std::int64_t end) {
-                 for (std::int64_t r = begin; r < end; ++r) {
-                   const CellRange& range = mesh.ranges[static_cast<std::size_t>(r)];
-                   b.middleRows(range.first_row, range.end_row - range.first_row).setZero();
-                   add_cells(range.first_cell, range.end_cell, b);
-                 }
-               });
+  for_ranges(mesh.ranges, work_.threads, kCellRanges, [&](const RowRange& range) {
+    b.middleRows(range.first_row, range.end_row - range.first_row).setZero();
+    add_cells(range.first_cell, range.end_cell, b);
+  });
   add_cells(mesh.crossing, mesh.cell_count(), b);
   if (!shortens_) return b;
   parallel_for(work_.threads, columns, 1, [&](std::int64_t begin, std::int64_t end) {

@@ -4,6 +4,7 @@
 #include <array>
 #include <memory>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "geotherm/backend.h"
@@ -98,6 +99,12 @@ struct Domain {
   std::vector<Warning> findings;  ///< about the input
 
   Index size() const { return static_cast<Index>(vertex_of_row.size()); }
+  /// Sets vertex_of_row, and row_of_vertex by it. `vertices`: with those that were inserted.
+  void number_rows(std::vector<Index> vertex_of, Index vertices) {
+    vertex_of_row = std::move(vertex_of);
+    row_of_vertex.assign(static_cast<std::size_t>(vertices), kNoIndex);
+    for (Index row = 0; row < size(); ++row) row_of_vertex[vertex_of_row[row]] = row;
+  }
   /// Whether a row is a vertex of the input, not one that was inserted.
   bool is_of_input(Index row) const { return vertex_of_row[row] < input_vertices; }
 

@@ -5,18 +5,18 @@
 #include <cmath>
 #include <string>
 
-#include "solver/accuracy/distance_bounds.h"
 #include "solver/core/parallel.h"
 #include "solver/core/stopwatch.h"
 #include "solver/core/text.h"
+#include "solver/grid/grid_marching.h"
 #include "solver/heat/grid_field.h"
 #include "solver/method/marching_method.h"
 
 namespace geotherm {
 namespace {
 
-/// Share of the work at which the analysis begins, and ends.
-constexpr double kGridAnalyzedFrom = 0.4, kGridAnalyzedTo = 0.7;
+/// Share of the work at which the analysis begins.
+constexpr double kGridAnalyzedFrom = 0.4;
 
 /// The time in squares of the spacing where speeds are the same: directions are right for short
 /// times, too (GridField::straighten()), and heat turns corners of walls the closer the shorter
@@ -33,36 +33,30 @@ class GridInput final : public Domain::Input {
 
   Result<std::shared_ptr<const Domain>> make(const Backend& backend, LaplacianKind laplacian,
                                              int threads, const Progress& progress) const override {
-    if (laplacian != LaplacianKind::kAuto && laplacian != LaplacianKind::kCotan) {
-      return Error{
-          ErrorCode::kBadInput,
-          "the Laplacian " + to_text(laplacian) + " is of triangle meshes, and this is a grid",
-          {"use ", SettingHint{"laplacian", {"auto"}}}};
-    }
+    if (auto fits = refuse_laplacian(laplacian, "this is a grid"); !fits) return fits.error();
     Stopwatch watch;
     if (!report(progress, "operators", 0.0)) return cancelled_error();
     auto out = std::make_shared<GridDomain>();
     out->lattice = lattice_;
     out->input = std::make_shared<const GridInput>(lattice_);
     measure_cells_into(*out);
-    GridPattern pattern = pattern_of_grid(*lattice_);
+    const CellPattern pattern = pattern_of_grid(*lattice_);
     out->timing.operators = watch.lap();
 
-    if (!report(progress, "analyze", kGridAnalyzedFrom)) return cancelled_error();
     std::vector<Vec3> places;
     if (!backend.iterative()) {
       for (const Index v : pattern.vertices) places.push_back(lattice_->grid().position(v));
     }
-    auto analysis = backend.analyze(pattern.pattern, places, threads);
-    if (!analysis) return analysis.error();
-    out->analysis = std::move(*analysis);
-    out->timing.analyze = watch.lap();
+    auto done = out->analyze(backend, pattern, places, threads, progress, kGridAnalyzedFrom, watch);
+    if (!done) return done.error();
 
-    if (!report(progress, "operators", kGridAnalyzedTo)) return cancelled_error();
-    const std::span<const Index> order = out->analysis->order();
-    out->matrix =
-        build_grid_matrix(*lattice_, pattern, order, out->unit, out->mean_measure, threads);
-    number_rows(pattern, order, *out);
+    out->matrix = build_grid_matrix(*lattice_, pattern, out->analysis->order(), out->unit,
+                                    out->mean_measure, threads);
+    out->input_vertices = lattice_->grid().sample_count();
+    const int inside = 1 << lattice_->dimension();
+    for (const Index v : out->vertex_of_row) {
+      out->on_boundary.push_back(lattice_->cells_at(v) < inside ? 1 : 0);
+    }
     measure_components(*out);
     out->timing.operators += watch.lap();
     return std::shared_ptr<const Domain>(std::move(out));
@@ -78,19 +72,6 @@ class GridInput final : public Domain::Input {
     });
     out.unit = width / lattice_->cell_count();
     out.mean_measure = lattice_->measure() * measure / lattice_->cell_count();
-  }
-
-  void number_rows(const GridPattern& pattern, std::span<const Index> order,
-                   GridDomain& out) const {
-    out.input_vertices = lattice_->grid().sample_count();
-    out.row_of_vertex.assign(static_cast<std::size_t>(out.input_vertices), kNoIndex);
-    const int inside = 1 << lattice_->dimension();
-    for (std::size_t k = 0; k < order.size(); ++k) {
-      const Index vertex = pattern.vertices[order[k]];
-      out.vertex_of_row.push_back(vertex);
-      out.row_of_vertex[vertex] = static_cast<Index>(k);
-      out.on_boundary.push_back(lattice_->cells_at(vertex) < inside ? 1 : 0);
-    }
   }
 
   void measure_components(GridDomain& out) const {
@@ -115,36 +96,12 @@ class GridInput final : public Domain::Input {
 
 Error bad_grid_source(std::string message) { return {ErrorCode::kBadInput, std::move(message)}; }
 
-/// Checks a point of a cell, whose number is that of its lowest corner.
-Result<void> check_cell_point(const GridLattice& lattice, const CellPoint& point) {
-  if (point.cell < 0 || point.cell >= lattice.grid().sample_count() ||
-      !lattice.has_cell(point.cell)) {
-    return bad_grid_source("at sample " + std::to_string(point.cell) + " begins no cell");
-  }
-  return check_weights(point.weights, std::size_t{1} << lattice.dimension(),
-                       "cell " + std::to_string(point.cell));
-}
-
 }  // namespace
 
 Result<std::shared_ptr<const Domain::Input>> grid_input(std::shared_ptr<const Grid> grid) {
   if (auto valid = check_grid(*grid); !valid) return valid.error();
   return std::shared_ptr<const Domain::Input>(
       std::make_shared<const GridInput>(std::make_shared<const GridLattice>(std::move(grid))));
-}
-
-std::shared_ptr<const DomainOperator> GridDomain::combine(double mass_factor,
-                                                          const PerComponent& stiffness_factor,
-                                                          std::vector<Index> held,
-                                                          const PerComponent& consistent_share,
-                                                          int threads) const {
-  return std::make_shared<const CellOperator>(matrix, mass_factor, stiffness_factor,
-                                              consistent_share, std::move(held), threads);
-}
-
-void GridDomain::apply_stiffness(std::span<const double> x, std::span<double> y,
-                                 int threads) const {
-  geotherm::apply_stiffness(*matrix, x, y, threads);
 }
 
 Result<SourceAnchors> GridDomain::place(const SourceSet& sources) const {
@@ -204,21 +161,17 @@ void GridDomain::apply_straight_line_bound(const SourceSet& sources, BelowLine b
     const auto at = grid.place(sample);
     return Vec3(at[0] * grid.spacing[0], at[1] * grid.spacing[1], at[2] * grid.spacing[2]);
   };
-  std::vector<LineSource> lines;
-  for (const SurfacePoint& point : sources.points) {
-    const Vec3 at = place_of(point.vertex);
-    lines.push_back({at, at, 0.0});
-  }
+  std::vector<Vec3> places;
+  for (const SurfacePoint& point : sources.points) places.push_back(place_of(point.vertex));
   for (const CellPoint& point : sources.cell_points) {
     const GridCell cell = lattice->cell(point.cell);
     Vec3 at = Vec3::Zero();
     for (int k = 0; k < cell.count; ++k) at += point.weights[k] * place_of(cell.corners[k]);
-    lines.push_back({at, at, 0.0});
+    places.push_back(at);
   }
   std::vector<Vec3> positions(static_cast<std::size_t>(input_vertices));
   for (Index v = 0; v < input_vertices; ++v) positions[v] = place_of(v);
-  geotherm::apply_straight_line_bound(positions, StraightLine(lines, unit), unit, 1,
-                                      bound_tolerance(MethodKind::kHeat), below, threads, result);
+  bound_by_lines(positions, places, below, threads, result);
 }
 
 }  // namespace geotherm

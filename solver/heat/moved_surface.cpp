@@ -95,14 +95,6 @@ bool moved_little(const IntrinsicSurface& earlier, const TriangleMesh& mesh) {
   return kShare * moved <= mesh.vertex_count();
 }
 
-void name_vertices(std::vector<Index> vertex_of_row, Surface& out) {
-  out.vertex_of_row = std::move(vertex_of_row);
-  out.row_of_vertex.assign(static_cast<std::size_t>(out.vertex_count()), kNoIndex);
-  for (std::size_t k = 0; k < out.vertex_of_row.size(); ++k) {
-    out.row_of_vertex[out.vertex_of_row[k]] = static_cast<Index>(k);
-  }
-}
-
 bool keep_order(const Surface& earlier, bool little, int threads, Stopwatch& watch, Surface& out) {
   if (earlier.backend != out.backend || earlier.asked != out.asked) return false;
   OperatorChanges changes;
@@ -126,7 +118,7 @@ bool keep_order(const Surface& earlier, bool little, int threads, Stopwatch& wat
   node.resize(static_cast<std::size_t>(out.vertex_count()), kNoIndex);
   const auto nodes = order_along(kept->parent, kept->vertices, node, out.intrinsic.faces);
   if (!nodes) return false;
-  name_vertices(nodes->order, out);
+  out.number_rows(nodes->order, out.vertex_count());
   // A fresh order has inserted vertices anywhere within a node, one that is kept has them last.
   if (little && (earlier.kept_order || out.refinement.points == 0)) {
     changes = find_changes(earlier, out, {nodes->parent, nodes_of_rows(*nodes)}, threads);

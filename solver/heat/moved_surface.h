@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <vector>
-
 #include "solver/core/stopwatch.h"
 #include "solver/heat/surface.h"
 
@@ -11,9 +9,6 @@ namespace geotherm {
 
 /// Whether most vertices are where they were: then lengths keep their unit, and with it their bits.
 bool moved_little(const IntrinsicSurface& earlier, const TriangleMesh& mesh);
-
-/// Sets vertex_of_row, and row_of_vertex by it.
-void name_vertices(std::vector<Index> vertex_of_row, Surface& out);
 
 /// Order, analysis and operators from those of an earlier surface. False where they do not serve.
 /// `little`: little has moved, in the same units; what has not changed is copied.

@@ -10,6 +10,9 @@
 #include <queue>
 #include <utility>
 
+#include "solver/geometry/edit.h"
+#include "solver/polyhedral/wave_surface.h"
+
 namespace geotherm {
 namespace {
 
@@ -78,25 +81,16 @@ class Reached {
   std::size_t used_ = 0;
 };
 
-/// A place in the plane of a face.
-struct PlanePlace {
-  double x, y;
-};
-
 double length_of(double x, double y) { return std::sqrt(x * x + y * y); }
-
-std::array<PlanePlace, 3> places_of(const FaceLayout& face) {
-  return {PlanePlace{0, 0}, PlanePlace{face.base, 0}, PlanePlace{face.x, face.height}};
-}
 
 /// From the source, which is `from_a` away from a and `from_b` from b and lies beyond them, to
 /// `target`; kUnreached where the straight line does not pass between a and b.
-double straight_through(const PlanePlace& a, const PlanePlace& b, const PlanePlace& target,
-                        double from_a, double from_b) {
-  const PlanePlace side{b.x - a.x, b.y - a.y}, apart{target.x - a.x, target.y - a.y};
-  const double length = length_of(side.x, side.y);
-  const double along = (side.x * apart.x + side.y * apart.y) / length;
-  const double height = std::abs(side.x * apart.y - side.y * apart.x) / length;
+double straight_through(const Eigen::Vector2d& a, const Eigen::Vector2d& b,
+                        const Eigen::Vector2d& target, double from_a, double from_b) {
+  const Eigen::Vector2d side = b - a, apart = target - a;
+  const double length = length_of(side.x(), side.y());
+  const double along = (side.x() * apart.x() + side.y() * apart.y()) / length;
+  const double height = std::abs(cross(side, apart)) / length;
   const double source = (length + (from_a - from_b) * (from_a + from_b) / length) / 2;
   const double square = (from_a - source) * (from_a + source);
   if (!(square >= -kCrossingTolerance * length * length)) return kUnreached;
@@ -169,10 +163,10 @@ std::vector<NearDistance> march_nearest(const CornerTable& corners, std::span<co
       Reached::Entry& a = reached.at(faces[f][next]);
       Reached::Entry& b = reached.at(faces[f][last]);
       if (a.done && b.done) continue;
-      const auto place = places_of(layout[f]);
+      const auto place = corners_of(layout[f]);
       const auto along_edge = [&](Reached::Entry& entry, int to) {
-        const double length = length_of(place[to].x - place[from].x, place[to].y - place[from].y);
-        lower(entry, distance + length);
+        const Eigen::Vector2d side = place[to] - place[from];
+        lower(entry, distance + length_of(side.x(), side.y()));
       };
       if (!a.done) along_edge(a, next);
       if (!b.done) along_edge(b, last);

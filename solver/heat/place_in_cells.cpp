@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "solver/geometry/edit.h"
 #include "solver/geometry/polygon_fans.h"
 #include "solver/heat/cell_domain.h"
 #include "solver/heat/face_triangles.h"
@@ -102,10 +103,6 @@ class CornersInSight {
  private:
   FaceLayout layout(std::size_t a, std::size_t b, std::size_t c) const {
     return lay_out(side_lengths(places_[a], places_[b], places_[c]));
-  }
-
-  static double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
-    return a[0] * b[1] - a[1] * b[0];
   }
 
   /// From the point at (0, 0), between the lines to `right` and `left`, over the side from corner a

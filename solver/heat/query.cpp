@@ -2,11 +2,7 @@
 #include "solver/heat/heat_state.h"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
-#include <mutex>
-#include <new>
-#include <optional>
 
 #include "geotherm/many.h"
 #include "solver/accuracy/check_heat.h"
@@ -15,6 +11,7 @@
 #include "solver/core/stopwatch.h"
 #include "solver/heat/factor_memory.h"
 #include "solver/heat/normalize.h"
+#include "solver/method/solve_sets.h"
 
 namespace geotherm {
 namespace {
@@ -213,81 +210,6 @@ Result<void> solve_group(const QueryPipeline& p, std::span<const SourceSet> sets
   return {};
 }
 
-/// Hands out groups to threads until all are done, one has failed or the work is cancelled.
-class GroupRunner {
- public:
-  GroupRunner(const QueryPipeline& pipeline, std::span<const SourceSet> sets,
-              const std::vector<Group>& groups, const QueryOptions& query, int threads,
-              std::span<DistanceResult> results, const Progress& progress)
-      : pipeline_(pipeline),
-        sets_(sets),
-        groups_(groups),
-        query_(query),
-        threads_(threads),
-        results_(results),
-        progress_(progress),
-        watch_(progress_.function()) {}
-
-  /// `threads`: for groups side by side, up to those of the query. What ended for want of memory is
-  /// thrown.
-  std::optional<Attempt<std::vector<DistanceResult>>> run(int threads) {
-    const int workers =
-        static_cast<int>(std::clamp<std::ptrdiff_t>(std::ssize(groups_), 1, std::max(threads, 1)));
-    threads_of_group_ = std::max(1, threads_ / workers);
-    const ThreadCrew crew(workers, &pipeline_.helpers);
-    run_calls(workers, workers, [this](int) noexcept { work(); });
-    progress_.rethrow();
-    if (memory_ended_) throw std::bad_alloc();
-    if (!failure_) return std::nullopt;
-    return Attempt<std::vector<DistanceResult>>{*failure_, policy_};
-  }
-
- private:
-  void work() {
-    const ThreadCrew crew(threads_of_group_, &pipeline_.helpers);
-    for (std::size_t g = next_++; g < groups_.size(); g = next_++) {
-      const auto count = static_cast<double>(groups_.size());
-      const Progress part =
-          part_of(watch_, static_cast<double>(g) / count, static_cast<double>(g + 1) / count);
-      const Group& group = groups_[g];
-      try {
-        const auto done = solve_group(pipeline_, sets_.subspan(group.first, group.anchors.size()),
-                                      group.anchors, query_, {pipeline_.pool, threads_of_group_},
-                                      results_.subspan(group.first, group.anchors.size()), part);
-        if (!done) return fail(done.error(), extreme_time(pipeline_.times, group.anchors));
-      } catch (const std::bad_alloc&) {
-        memory_ended_ = true;
-        return progress_.stop();
-      }
-    }
-  }
-
-  /// The first failure counts; the other threads stop because of it.
-  void fail(Error error, double extreme) {
-    const std::lock_guard lock(mutex_);
-    if (!failure_) {
-      policy_ = policy_after_query(error, extreme);
-      failure_ = std::move(error);
-    }
-    progress_.stop();
-  }
-
-  const QueryPipeline& pipeline_;
-  std::span<const SourceSet> sets_;
-  const std::vector<Group>& groups_;
-  const QueryOptions& query_;
-  const int threads_;  ///< of the query
-  std::span<DistanceResult> results_;
-  SharedProgress progress_;
-  const Progress watch_;
-  int threads_of_group_ = 1;
-  std::atomic<std::size_t> next_{0};
-  std::mutex mutex_;
-  std::atomic<bool> memory_ended_{false};
-  std::optional<Error> failure_;
-  FallbackPolicy policy_ = FallbackPolicy::kNone;
-};
-
 }  // namespace
 
 Attempt<std::vector<DistanceResult>> run_queries(const QueryPipeline& pipeline,
@@ -302,17 +224,28 @@ Attempt<std::vector<DistanceResult>> run_queries(const QueryPipeline& pipeline,
   const int worth =
       threads_worth(thread_count(pipeline.options.threads),
                     query_nanoseconds(pipeline, query.quality) * static_cast<double>(sets.size()));
-  GroupRunner runner(pipeline, sets, *groups, query, worth, results, progress);
   const auto fitting =
       threads_in_memory(pipeline, *groups, std::min<int>(worth, static_cast<int>(groups->size())));
   if (!fitting) return {fitting.error(), FallbackPolicy::kFactorless};
-  const int threads = *fitting;
-  if (auto failure = runner.run(threads)) return *std::move(failure);
+  const int threads = std::max(1, *fitting);
+  const int inside = std::max(1, worth / threads);  // for each group
+  const auto job = [&](std::size_t g, const Progress& part) {
+    const ThreadCrew crew(inside, &pipeline.helpers);
+    const auto& [first, anchors] = (*groups)[g];
+    return solve_group(pipeline, sets.subspan(first, anchors.size()), anchors, query,
+                       {pipeline.pool, inside}, std::span(results).subspan(first, anchors.size()),
+                       part);
+  };
+  if (auto failure = share_out_jobs(groups->size(), threads, pipeline.helpers, progress, job)) {
+    const double extreme = extreme_time(pipeline.times, (*groups)[failure->job].anchors);
+    const FallbackPolicy policy = policy_after_query(failure->error, extreme);
+    return {std::move(failure->error), policy};
+  }
   // Threads work side by side: a set's share of the wall clock is that much smaller.
   for (DistanceResult& result : results) {
     for (double* ms : {&result.timing.diffuse, &result.timing.gradient, &result.timing.poisson,
                        &result.timing.query}) {
-      *ms /= std::max(threads, 1);
+      *ms /= threads;
     }
     const double share = placing / static_cast<double>(results.size());
     result.timing.diffuse += share;

@@ -10,23 +10,13 @@
 #include "solver/core/text.h"
 #include "solver/geometry/edit.h"
 #include "solver/heat/surface.h"
+#include "solver/polyhedral/wave_surface.h"
 
 namespace geotherm {
 namespace {
 
 using Point2 = Eigen::Vector2d;
 using Weights = std::array<double, 3>;
-
-std::array<Point2, 3> corners(const FaceLayout& p) {
-  return {Point2(0, 0), Point2(p.base, 0), Point2(p.x, p.height)};
-}
-
-double distance_to_segment(const Point2& p, const Point2& a, const Point2& b) {
-  const Point2 ab = b - a;
-  const double square = ab.squaredNorm();
-  const double t = square > 0 ? std::clamp((p - a).dot(ab) / square, 0.0, 1.0) : 0.0;
-  return (p - a - t * ab).norm();
-}
 
 /// Heat that a piece gives to the corners of its face: as a whole, and for its length.
 struct PieceHeat {
@@ -177,7 +167,7 @@ class Placer {
     for (const Side of : {side, surface_.intrinsic.twin[side]}) {
       if (of == kNoSide) continue;
       const Index f = face_number(face_of(of));
-      const auto at = corners(surface_.operators->layout[f]);
+      const auto at = corners_of(surface_.operators->layout[f]);
       pieces_.push_back({f, at[corner_of(of)], at[next_corner(corner_of(of))]});
     }
   }
@@ -195,7 +185,7 @@ class Placer {
   void add_to_face(const FacePiece& piece, const PieceHeat& heat) {
     const OperatorMesh& mesh = *surface_.operators;
     const Index f = face_number(piece.face);
-    const auto at = corners(mesh.layout[f]);
+    const auto at = corners_of(mesh.layout[f]);
     const auto place = [&at](const Weights& w) {
       return Point2(w[0] * at[0] + w[1] * at[1] + w[2] * at[2]);
     };
@@ -205,7 +195,7 @@ class Placer {
     for (int k = 0; k < 3; ++k) {
       Entry& entry = anchors_.try_emplace(mesh.faces[f][k], Entry{kUnreached, 0.0}).first->second;
       if (entry.offset == 0) continue;  // a source itself, with all its heat
-      const double offset = distance_to_segment(at[k], from, to);
+      const double offset = distance_to({f, from, to, 0, 0}, at[k]);
       if (piece.from[k] == 1 || piece.to[k] == 1) {
         entry = {0.0, 1.0};
         continue;
@@ -238,7 +228,7 @@ class Placer {
   /// Brings the corners of a face as near as the others allow; true where that changed one.
   bool shorten(Index f) {
     const Face& face = surface_.operators->faces[f];
-    const auto at = corners(surface_.operators->layout[f]);
+    const auto at = corners_of(surface_.operators->layout[f]);
     bool changed = false;
     for (int k = 0; k < 3; ++k) {
       const int i = next_corner(k), j = previous_corner(k);
@@ -246,7 +236,7 @@ class Placer {
       double least =
           std::min(near_.at(a) + (at[k] - at[i]).norm(), near_.at(b) + (at[k] - at[j]).norm());
       if (edges_.contains({std::min(a, b), std::max(a, b)})) {
-        least = std::min(least, distance_to_segment(at[k], at[i], at[j]));
+        least = std::min(least, distance_to({f, at[i], at[j], 0, 0}, at[k]));
       }
       double& value = near_.at(face[k]);
       changed = changed || least < value;
@@ -297,20 +287,6 @@ Result<void> refuse_offsets(const SourceSet& sources, Hint hint) {
                  std::move(hint)};
   }
   return {};
-}
-
-Result<void> check_weights(std::span<const double> weights, std::size_t corners,
-                           const std::string& cell) {
-  double sum = 0;
-  bool valid = weights.size() == corners;
-  for (const double weight : weights) {
-    valid = valid && weight >= 0;
-    sum += weight;
-  }
-  constexpr double kOfOne = 1e-9;
-  if (valid && std::abs(sum - 1) <= kOfOne) return {};
-  return Error{ErrorCode::kBadInput, "the source in " + cell + " needs " + std::to_string(corners) +
-                                         " weights that are not negative and sum to 1"};
 }
 
 Result<SourceAnchors> place_sources(const Surface& surface, const SourceSet& sources) {

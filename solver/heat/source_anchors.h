@@ -71,11 +71,6 @@ class AnchorMap {
 /// Errors (kBadInput): an offset above 0. `hint`: of that error.
 Result<void> refuse_offsets(const SourceSet& sources, Hint hint = {});
 
-/// Whether a point has a weight for each corner of its cell, none below 0, that sum to 1. `cell`:
-/// "tet 17". Errors: kBadInput.
-Result<void> check_weights(std::span<const double> weights, std::size_t corners,
-                           const std::string& cell);
-
 /// Errors (kBadInput): those of check_sources(), and offsets above 0.
 Result<SourceAnchors> place_sources(const Surface& surface, const SourceSet& sources);
 

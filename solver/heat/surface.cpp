@@ -160,7 +160,7 @@ Result<void> order_afresh(int threads, const Progress& progress, Stopwatch& watc
       build_operator_mesh(out.intrinsic, pattern, used.local, order, used.parts, threads);
   std::vector<Index> vertices;
   for (const Index k : order) vertices.push_back(used.vertices[k]);
-  name_vertices(std::move(vertices), out);
+  out.number_rows(std::move(vertices), out.vertex_count());
   return {};
 }
 
@@ -243,13 +243,8 @@ void Surface::apply_stiffness(std::span<const double> x, std::span<double> y, in
       for (int k = 0; k < 3; ++k) y[face[k]] += d[k];
     }
   };
-  // Faces of a range meet no rows of another's.
-  parallel_for(threads, std::ssize(m.ranges), 1, [&](std::int64_t begin, std::int64_t end) {
-    for (; begin < end; ++begin) {
-      const FaceRange& range = m.ranges[static_cast<std::size_t>(begin)];
-      add_faces(range.first_face, range.end_face);
-    }
-  });
+  for_ranges(m.ranges, threads, 1,
+             [&](const RowRange& range) { add_faces(range.first_cell, range.end_cell); });
   add_faces(m.crossing, m.face_count());
 }
 

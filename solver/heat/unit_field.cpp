@@ -298,17 +298,11 @@ void FaceField::add_faces(Index first_face, Index end_face, Block& b) const {
 Block FaceField::divergence(std::span<const SourceAnchors> anchors) const {
   const Eigen::Index columns = heat_.u.cols();
   Block b = work_.pool.take(heat_.u.rows(), columns);
-  // Ranges write to rows of their own, then those faces follow that join them: each row has its sum
-  // in one order, with any number of threads.
-  parallel_for(work_.threads, std::ssize(mesh_.ranges),
-               std::max<std::int64_t>(1, kRanges / columns),
-               [&](std::int64_t begin, std::int64_t end) {
-                 for (std::int64_t r = begin; r < end; ++r) {
-                   const FaceRange& range = mesh_.ranges[static_cast<std::size_t>(r)];
-                   b.middleRows(range.first_row, range.end_row - range.first_row).setZero();
-                   add_faces(range.first_face, range.end_face, b);
-                 }
-               });
+  const std::int64_t grain = std::max<std::int64_t>(1, kRanges / columns);
+  for_ranges(mesh_.ranges, work_.threads, grain, [&](const RowRange& range) {
+    b.middleRows(range.first_row, range.end_row - range.first_row).setZero();
+    add_faces(range.first_cell, range.end_cell, b);
+  });
   add_faces(mesh_.crossing, mesh_.face_count(), b);
   if (!(root_t_ > 0)) return b;
   for (Eigen::Index c = 0; c < columns; ++c) {

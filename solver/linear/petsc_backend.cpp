@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 #include <mutex>
+#include <span>
 #include <string>
 #include <utility>
 
@@ -10,6 +11,7 @@
 #include "solver/linear/backend_registry.h"
 #include "solver/linear/matrix_rows.h"
 #include "solver/linear/mpi_module.h"
+#include "solver/linear/symmetric_pattern.h"
 
 namespace geotherm {
 namespace {
@@ -48,30 +50,6 @@ bool is_laplacian(const LowerMatrix& lower) {
   return 2 * balanced > lower.size();
 }
 
-/// The component of every row.
-std::vector<Index> components_of(const FullRows& rows, Index& count) {
-  const auto n = static_cast<Index>(rows.start.size() - 1);
-  std::vector<Index> component(static_cast<std::size_t>(n), kNoIndex), stack;
-  count = 0;
-  for (Index first = 0; first < n; ++first) {
-    if (component[first] != kNoIndex) continue;
-    component[first] = count;
-    stack.push_back(first);
-    while (!stack.empty()) {
-      const Index i = stack.back();
-      stack.pop_back();
-      for (int e = rows.start[i]; e < rows.start[i + 1]; ++e) {
-        const Index j = rows.column[e];
-        if (component[j] != kNoIndex) continue;
-        component[j] = count;
-        stack.push_back(j);
-      }
-    }
-    ++count;
-  }
-  return component;
-}
-
 Error in_petsc(std::string what) {
   return {ErrorCode::kNumericalFailure,
           std::move(what),
@@ -99,7 +77,10 @@ class PoissonByPetsc final : public Factorization {
                       " in column " + std::to_string(j) + " of " + std::to_string(lower.size()) +
                       ")");
     }
-    out->component_ = components_of(out->rows_, out->components_);
+    const FullRows& rows = out->rows_;
+    out->parts_ = connected_components(lower.size(), [&rows](Index i) {
+      return std::span(rows.column).subspan(rows.start[i], rows.start[i + 1] - rows.start[i]);
+    });
     const std::lock_guard lock(petsc_in_use);
     const char* problem = nullptr;
     out->solver_ =
@@ -137,7 +118,7 @@ class PoissonByPetsc final : public Factorization {
     return {.nonzeros = nonzeros,
             .bytes = nonzeros * static_cast<std::int64_t>(sizeof(double) + sizeof(int))};
   }
-  Index size() const override { return static_cast<Index>(component_.size()); }
+  Index size() const override { return rows_.size(); }
 
  private:
   explicit PoissonByPetsc(const MpiModule& module) : module_(module) {}
@@ -155,14 +136,14 @@ class PoissonByPetsc final : public Factorization {
     for (int round = 0; round <= kMaxRounds; ++round) {
       const std::vector<double> now = norms(left);
       const double before = std::exchange(out.residual, 0.0);
-      for (Index c = 0; c < components_; ++c) {
+      for (Index c = 0; c < parts_.count; ++c) {
         if (wanted[c] > 0) out.residual = std::max(out.residual, now[c] / wanted[c]);
       }
       if (out.residual <= kNear * kPetscTolerance) return out;
       const bool stays = round > 1 && !(out.residual < kProgress * before);
       if (stays && out.residual <= kPetscWorst) return out;
       for (std::size_t i = 0; i < left.size(); ++i) {
-        const Index c = component_[i];
+        const Index c = parts_.of[i];
         if (now[c] <= kNear * kPetscTolerance * wanted[c]) left[i] = 0;
       }
       int iterations = 0;
@@ -180,8 +161,8 @@ class PoissonByPetsc final : public Factorization {
   }
 
   std::vector<double> norms(const std::vector<double>& r) const {
-    std::vector<double> squares(static_cast<std::size_t>(components_), 0.0);
-    for (std::size_t i = 0; i < r.size(); ++i) squares[component_[i]] += r[i] * r[i];
+    std::vector<double> squares(static_cast<std::size_t>(parts_.count), 0.0);
+    for (std::size_t i = 0; i < r.size(); ++i) squares[parts_.of[i]] += r[i] * r[i];
     for (double& each : squares) each = std::sqrt(each);
     return squares;
   }
@@ -200,8 +181,7 @@ class PoissonByPetsc final : public Factorization {
   const MpiModule& module_;
   void* solver_ = nullptr;
   FullRows rows_;
-  std::vector<Index> component_;
-  Index components_ = 0;
+  Components parts_;
 };
 
 /// The native analysis, whose factors serve the heat step.
@@ -210,7 +190,6 @@ class PetscAnalysis final : public Analysis {
   explicit PetscAnalysis(std::shared_ptr<const Analysis> native) : native_(std::move(native)) {}
 
   std::span<const Index> order() const override { return native_->order(); }
-  std::int64_t bytes() const override { return native_->bytes(); }
   std::int64_t factor_bytes(FactorStorage storage) const override {
     return native_->factor_bytes(storage);
   }

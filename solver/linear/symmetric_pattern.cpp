@@ -138,21 +138,17 @@ std::uint64_t pattern_hash(const LowerPattern& lower, int threads) {
   });
 }
 
-Components connected_components(const SymmetricPattern& pattern) {
-  DisjointSets sets(static_cast<std::size_t>(pattern.size()));
-  for (Index i = 0; i < pattern.size(); ++i) {
-    for (const Index j : pattern.neighbors(i)) {
-      if (j >= i) break;
-      sets.join(i, j);
-    }
+void name_components(const Components& parts, std::span<const Index> order, Components& out) {
+  out.count = parts.count;
+  out.of.assign(order.size(), 0);
+  if (parts.count == 1) return;
+  std::vector<Index> name(static_cast<std::size_t>(parts.count), kNoIndex);
+  Index named = 0;
+  for (std::size_t k = 0; k < order.size(); ++k) {
+    Index& here = name[parts.of[order[k]]];
+    if (here == kNoIndex) here = named++;
+    out.of[k] = here;
   }
-  Components out;
-  out.of.resize(static_cast<std::size_t>(pattern.size()));
-  for (Index i = 0; i < pattern.size(); ++i) {
-    const Index lowest = sets.root(i);
-    out.of[i] = lowest == i ? out.count++ : out.of[lowest];
-  }
-  return out;
 }
 
 }  // namespace geotherm

@@ -2,9 +2,11 @@
 #pragma once
 
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "geotherm/backend.h"
+#include "solver/core/sorting.h"
 
 namespace geotherm {
 
@@ -20,6 +22,26 @@ struct Components {
   std::vector<Index> of;  ///< n
   Index count = 0;
 };
-Components connected_components(const SymmetricPattern& pattern);
+/// neighbors(i): the vertices joined to i, ascending.
+template <class NeighborsOf>
+Components connected_components(Index size, const NeighborsOf& neighbors) {
+  DisjointSets sets(static_cast<std::size_t>(size));
+  for (Index i = 0; i < size; ++i) {
+    for (const Index j : neighbors(i)) {
+      if (j >= i) break;
+      sets.join(i, j);
+    }
+  }
+  Components out;
+  out.of = std::move(sets).roots();
+  for (Index i = 0; i < size; ++i) out.of[i] = out.of[i] == i ? out.count++ : out.of[out.of[i]];
+  return out;
+}
+inline Components connected_components(const SymmetricPattern& pattern) {
+  return connected_components(pattern.size(), [&](Index i) { return pattern.neighbors(i); });
+}
+
+/// The components of a pattern as an elimination order numbers them anew.
+void name_components(const Components& parts, std::span<const Index> order, Components& out);
 
 }  // namespace geotherm

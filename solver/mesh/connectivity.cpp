@@ -174,18 +174,14 @@ EdgeTable::EdgeTable(const CornerTable& corners, std::span<const Face> faces, in
 }
 
 EdgeGraph::EdgeGraph(std::span<const Vec3> positions, const EdgeTable& edges)
-    : positions_(positions), start_(positions.size() + 1, 0) {
-  for (Index e = 0; e < edges.edge_count(); ++e) {
-    ++start_[edges.low(e) + 1];
-    ++start_[edges.high(e) + 1];
-  }
-  for (std::size_t v = 0; v < positions.size(); ++v) start_[v + 1] += start_[v];
-  neighbours_.resize(start_.back());
-  std::vector<std::size_t> cursor(start_.begin(), start_.end() - 1);
-  for (Index e = 0; e < edges.edge_count(); ++e) {
-    neighbours_[cursor[edges.low(e)]++] = edges.high(e);
-    neighbours_[cursor[edges.high(e)]++] = edges.low(e);
-  }
+    : positions_(positions) {
+  const auto emit = [&edges](std::size_t i, const auto& put) {
+    const auto e = static_cast<Index>(i);
+    put(edges.low(e), edges.high(e));
+    put(edges.high(e), edges.low(e));
+  };
+  const auto count = static_cast<std::size_t>(edges.edge_count());
+  neighbours_ = counting_sort<Index>(count, positions.size(), 1, emit, start_);
 }
 
 bool EdgeGraph::adjacent(Index a, Index b) const {

@@ -95,8 +95,8 @@ class EdgeGraph {
   }
 
   std::span<const Vec3> positions_;
-  std::vector<std::size_t> start_;
-  std::vector<Index> neighbours_;
+  std::vector<std::uint32_t> start_;
+  RawVector<Index> neighbours_;
 };
 
 }  // namespace geotherm

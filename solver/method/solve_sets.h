@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <functional>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -10,6 +11,22 @@
 #include "solver/core/threads.h"
 
 namespace geotherm {
+
+/// The first job that failed, and why.
+struct JobFailure {
+  std::size_t job = 0;
+  Error error;
+};
+
+/// Does one of several jobs; on any thread, several at once.
+using Job = std::function<Result<void>(std::size_t job, const Progress&)>;
+
+/// Hands out the jobs 0 to `jobs` - 1 to threads until all are done, one has failed or the work is
+/// cancelled. The failure of the first job counts, but for those that the stop itself brought
+/// about. `progress` is called by one thread at a time, with shares that do not fall. Throws what
+/// it throws, and std::bad_alloc where a job does.
+std::optional<JobFailure> share_out_jobs(std::size_t jobs, int threads, HelperPool& helpers,
+                                         const Progress& progress, const Job& job);
 
 /// Solves one source set; on any thread, several at once.
 using SolveSet = std::function<Result<DistanceResult>(const SourceSet&, const Progress&)>;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "solver/geometry/edit.h"
 #include "solver/path/unfolded_strip.h"
 
 namespace geotherm {
@@ -11,10 +12,8 @@ namespace {
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
-double plane_cross(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
-
 double angle_between(const Vec2& a, const Vec2& b) {
-  return std::atan2(std::abs(plane_cross(a, b)), a.dot(b));
+  return std::atan2(std::abs(cross(a, b)), a.dot(b));
 }
 
 /// Whether the edge between the first two faces holds the point, which makes the first face
@@ -163,9 +162,9 @@ void append_points(const PathSurface& surface, const PathSegment& segment,
     const auto [left, right] = strip.gates[k];
     const Vec2& from_left = strip.points[at(left)];
     const Vec2 gate = strip.points[at(right)] - from_left;
-    const double across = plane_cross(along, gate);
+    const double across = cross(along, gate);
     const double share =
-        across != 0 ? std::clamp(plane_cross(along, start - from_left) / across, 0.0, 1.0) : 0;
+        across != 0 ? std::clamp(cross(along, start - from_left) / across, 0.0, 1.0) : 0;
     if (share < kAtVertex || share > 1 - kAtVertex) {
       const int post = share < 0.5 ? left : right;
       append(SurfacePoint::at_vertex(strip.corners[at(post)].vertex), segment.faces[k]);

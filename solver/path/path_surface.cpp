@@ -50,17 +50,9 @@ PathSurface::PathSurface(std::shared_ptr<const TriangleMesh> mesh)
       clean_(clean_faces(*mesh_)),
       clean_face_(static_cast<std::size_t>(mesh_->face_count()), kNoIndex),
       edge_at_(3 * clean_.faces.size()),
-      first_corner_(static_cast<std::size_t>(mesh_->vertex_count()) + 1, 0),
-      corners_(3 * clean_.faces.size()),
       edge_graph_({}, {}) {
   for (std::size_t f = 0; f < clean_.faces.size(); ++f) {
     clean_face_[clean_.original[f]] = static_cast<Index>(f);
-    for (const Index v : clean_.faces[f]) ++first_corner_[v + 1];
-  }
-  for (std::size_t v = 1; v < first_corner_.size(); ++v) first_corner_[v] += first_corner_[v - 1];
-  std::vector<std::size_t> cursor(first_corner_.begin(), first_corner_.end() - 1);
-  for (std::size_t c = 0; c < corners_.size(); ++c) {
-    corners_[cursor[clean_.faces[c / 3][c % 3]]++] = static_cast<Index>(c);
   }
   for (Index e = 0; e < clean_.edges.edge_count(); ++e) {
     for (const Side side : clean_.edges.sides(e)) edge_at_[side] = e;

@@ -33,10 +33,7 @@ class PathSurface {
   const EdgeGraph& edge_graph() const { return edge_graph_; }
 
   /// The corners that a vertex has: corner k of face f is 3 f + k. None: it is in no clean face.
-  std::span<const Index> corners_at(Index v) const {
-    const auto i = static_cast<std::size_t>(v);
-    return {corners_.data() + first_corner_[i], corners_.data() + first_corner_[i + 1]};
-  }
+  std::span<const Index> corners_at(Index v) const { return clean_.corners.at(v); }
 
   /// (model position - middle) / unit.
   const Vec3& position(Index v) const { return positions_[static_cast<std::size_t>(v)]; }
@@ -73,8 +70,6 @@ class PathSurface {
   CleanFaces clean_;
   std::vector<Index> clean_face_;  // of each face of the file
   std::vector<Index> edge_at_;     // of each side
-  std::vector<std::size_t> first_corner_;
-  std::vector<Index> corners_;
   double unit_ = 1;
   std::vector<Vec3> positions_;
   EdgeGraph edge_graph_;

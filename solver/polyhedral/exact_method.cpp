@@ -1,43 +1,18 @@
 // SPDX-License-Identifier: MIT
-#include "geotherm/polyhedral_methods.h"
-
 #include <new>
 #include <string>
 #include <utility>
 
-#include "solver/accuracy/check_waves.h"
-#include "solver/core/parallel.h"
 #include "solver/core/stopwatch.h"
 #include "solver/method/reach.h"
-#include "solver/method/solve_sets.h"
 #include "solver/polyhedral/propagation.h"
+#include "solver/polyhedral/wave_method.h"
 
 namespace geotherm {
 namespace {
 
 /// What a query takes at least for each face.
 constexpr double kWindowNanosecondsPerFace = 1000;
-
-}  // namespace
-
-struct ExactMethod::State {
-  State(std::shared_ptr<const WaveSurface> waves, int thread_limit)
-      : surface(std::move(waves)),
-        mesh(*surface),
-        threads{thread_limit, kWindowNanosecondsPerFace * surface->face_count()} {}
-
-  std::shared_ptr<const WaveSurface> surface;
-  WindowMesh mesh;
-  SetThreads threads;
-  SetupTiming timing;
-
-  Result<DistanceResult> solve(const SourceSet& sources, std::size_t most_bytes,
-                               const QueryOptions& query, const Progress& progress) const;
-};
-
-namespace {
-
-constexpr double kMiB = 1024.0 * 1024.0;
 
 Error out_of_memory(const char* stage, Index faces) {
   return {ErrorCode::kOutOfMemory,
@@ -48,40 +23,41 @@ Error out_of_memory(const char* stage, Index faces) {
 
 }  // namespace
 
-Result<DistanceResult> ExactMethod::State::solve(const SourceSet& sources, std::size_t most_bytes,
-                                                 const QueryOptions& query,
-                                                 const Progress& progress) const try {
-  const Stopwatch watch;
-  if (!report(progress, "solve", 0.0)) return cancelled_error();
+struct ExactMethod::State final : WaveMethod::State {
+  State(std::shared_ptr<const WaveSurface> waves, int thread_limit)
+      : WaveMethod::State(std::move(waves), thread_limit, kWindowNanosecondsPerFace),
+        mesh(*surface) {}
+
+  MethodKind kind() const override { return MethodKind::kExact; }
+  double bytes() const override { return mesh.bytes(); }
+  Result<DistanceResult> answer(const SourceSeeds& seeds, const QueryOptions& query, int at_once,
+                                const Progress& progress) const override;
+
+  WindowMesh mesh;
+};
+
+Result<DistanceResult> ExactMethod::State::answer(const SourceSeeds& seeds,
+                                                  const QueryOptions& query, int at_once,
+                                                  const Progress& progress) const try {
   const Reach& reach = query.reach;
-  if (auto valid = check_reach(reach, surface->base.mesh->vertex_count()); !valid) {
-    return valid.error();
-  }
-  const auto seeds = seed_sources(*surface, sources);
-  if (!seeds) return seeds.error();
-  Propagation windows(mesh, most_bytes);
-  const double radius = reach.max_distance / surface->base.length_unit();
-  auto done = windows.run(*seeds, progress, radius, reach.targets);
+  const double unit = surface->base.length_unit();
+  Propagation windows(mesh, Propagation::kMaxBytes / static_cast<std::size_t>(at_once));
+  auto done = windows.run(seeds, progress, reach.max_distance / unit, reach.targets);
   if (!done) return done.error();
 
   DistanceResult result;
   result.distances.reserve(windows.vertices().size());
-  for (const auto& vertex : windows.vertices()) result.distances.push_back(vertex.distance);
-  if (query.quality && !reach.is_bounded())
-    assess_waves(MethodKind::kExact, *surface, sources, *seeds, result);
-  for (double& distance : result.distances) distance *= surface->base.length_unit();
-  if (query.nearest) {
-    for (const auto& vertex : windows.vertices()) result.nearest_source.push_back(vertex.group);
+  for (const auto& vertex : windows.vertices()) {
+    result.distances.push_back(reach.is_bounded() ? vertex.distance * unit : vertex.distance);
+    if (query.nearest) result.nearest_source.push_back(vertex.group);
   }
-  keep_reach(reach, result);
-  result.timing.query = watch.milliseconds();
+  if (reach.is_bounded()) keep_reach(reach, result);
   return result;
 } catch (const std::bad_alloc&) {
   return out_of_memory("query", surface->face_count());
 }
 
-ExactMethod::ExactMethod(std::unique_ptr<const State> state) : state_(std::move(state)) {}
-ExactMethod::~ExactMethod() = default;
+ExactMethod::ExactMethod(std::unique_ptr<const State> state) : WaveMethod(std::move(state)) {}
 
 Result<std::shared_ptr<const ExactMethod>> ExactMethod::build(
     std::shared_ptr<const WaveSurface> surface, int threads, const Progress& progress) try {
@@ -93,21 +69,5 @@ Result<std::shared_ptr<const ExactMethod>> ExactMethod::build(
 } catch (const std::bad_alloc&) {
   return out_of_memory("set-up", surface->face_count());
 }
-
-Result<std::vector<DistanceResult>> ExactMethod::solve_each(std::span<const SourceSet> sets,
-                                                            const QueryOptions& query,
-                                                            const Progress& progress) const {
-  const auto workers = static_cast<std::size_t>(state_->threads.at_once(sets.size()));
-  return solve_sets(sets, state_->threads, progress,
-                    [&](const SourceSet& sources, const Progress& part) {
-                      return state_->solve(sources, Propagation::kMaxBytes / workers, query, part);
-                    });
-}
-
-const SetupTiming& ExactMethod::timing() const { return state_->timing; }
-double ExactMethod::memory_mb() const { return state_->mesh.bytes() / kMiB; }
-const std::shared_ptr<const WaveSurface>& ExactMethod::surface() const { return state_->surface; }
-
-const std::vector<Warning>& ExactMethod::warnings() const { return state_->surface->base.warnings; }
 
 }  // namespace geotherm

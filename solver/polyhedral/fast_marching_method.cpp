@@ -1,21 +1,16 @@
 // SPDX-License-Identifier: MIT
-#include "geotherm/polyhedral_methods.h"
-
 #include <algorithm>
 #include <cmath>
 #include <memory>
-#include <mutex>
 #include <new>
 #include <queue>
 #include <span>
+#include <utility>
 #include <vector>
 
-#include "solver/accuracy/check_waves.h"
 #include "solver/core/stopwatch.h"
-#include "solver/method/reach.h"
-#include "solver/method/solve_sets.h"
 #include "solver/polyhedral/march_supports.h"
-#include "solver/polyhedral/wave_surface.h"
+#include "solver/polyhedral/wave_method.h"
 
 namespace geotherm {
 namespace {
@@ -136,153 +131,70 @@ class March {
   std::vector<Index> touched_;
 };
 
-/// Marches that are kept between queries that do not go far: a new one clears all of its memory.
-class MarchPool {
- public:
-  std::unique_ptr<March> take(const WaveSurface& surface, const MarchSupports& supports) {
-    const std::lock_guard lock(mutex_);
-    if (free_.empty()) return std::make_unique<March>(surface, supports);
-    auto march = std::move(free_.back());
-    free_.pop_back();
-    return march;
-  }
-  void give(std::unique_ptr<March> march) {
-    const std::lock_guard lock(mutex_);
-    free_.push_back(std::move(march));
-  }
+}  // namespace
 
- private:
-  std::mutex mutex_;
-  std::vector<std::unique_ptr<March>> free_;
+struct FastMarchingMethod::State final : WaveMethod::State {
+  State(std::shared_ptr<const WaveSurface> waves, int thread_limit)
+      : WaveMethod::State(std::move(waves), thread_limit, kMarchNanosecondsPerFace),
+        supports(build_march_supports(*surface)) {}
+
+  MethodKind kind() const override { return MethodKind::kFastMarching; }
+  double bytes() const override { return static_cast<double>(supports.bytes()); }
+  Result<DistanceResult> answer(const SourceSeeds& seeds, const QueryOptions& query, int at_once,
+                                const Progress& progress) const override;
+  Result<DistanceResult> answer_near(const SourceSeeds& seeds, const QueryOptions& query,
+                                     const Progress& progress) const;
+
+  MarchSupports supports;
+  mutable WorkPool<March> pool;  ///< of queries that do not go far: a new march clears all memory
 };
 
-/// What is within reach, in model units.
-DistanceResult reached_by(const March& march, const WaveSurface& surface,
-                          const QueryOptions& query) {
-  const Reach& reach = query.reach;
-  DistanceResult result;
-  std::vector<Index> from;
-  if (!reach.targets.empty()) {
-    result.vertices = from = reach.targets;
-  } else {
-    from.assign(march.touched().begin(), march.touched().end());
-    if (reach.sparse) std::ranges::sort(from);
-  }
-  const bool dense = reach.targets.empty() && !reach.sparse;
-  if (dense) result.distances.assign(march.distance.size(), kUnreached);
-  if (dense && query.nearest) result.nearest_source.assign(march.distance.size(), kNoIndex);
-  for (const Index v : from) {
-    const double d = (march.distance[v] + march.base) * surface.base.length_unit();
-    const bool within = march.is_accepted(v) && d <= reach.max_distance;
-    if (dense) {
-      if (!within) continue;
-      result.distances[v] = d;
-      if (query.nearest) result.nearest_source[v] = march.label[v];
-    } else if (within || !reach.targets.empty()) {
-      if (reach.targets.empty()) result.vertices.push_back(v);
-      result.distances.push_back(within ? d : kUnreached);
-      if (query.nearest) result.nearest_source.push_back(within ? march.label[v] : kNoIndex);
-    }
-  }
-  return result;
-}
-
-Result<DistanceResult> solve_near(const WaveSurface& surface, const MarchSupports& supports,
-                                  MarchPool& pool, const SourceSeeds& seeds,
-                                  const QueryOptions& query, const Progress& progress) {
+Result<DistanceResult> FastMarchingMethod::State::answer_near(const SourceSeeds& seeds,
+                                                              const QueryOptions& query,
+                                                              const Progress& progress) const {
   constexpr double kMore = 1 + 1e-12;  // rounding must not leave out what is at just this distance
-  const Stopwatch watch;
-  const double radius = query.reach.max_distance * kMore / surface.base.length_unit();
-  auto march = pool.take(surface, supports);
-  const bool done = march->run(seeds, {radius, query.reach.targets}, progress);
-  DistanceResult result;
-  if (done) result = reached_by(*march, surface, query);
+  const Reach& reach = query.reach;
+  const double unit = surface->base.length_unit();
+  auto march = pool.take([](const March&) { return true; });
+  if (!march) march = std::make_unique<March>(*surface, supports);
+  const bool done = march->run(seeds, {reach.max_distance * kMore / unit, reach.targets}, progress);
+  std::vector<ReachedVertex> reached;
+  for (const Index v : reach.targets.empty() ? march->touched() : std::span(reach.targets)) {
+    const double distance = (march->distance[v] + march->base) * unit;
+    reached.push_back({v, march->is_accepted(v) ? distance : kUnreached, march->label[v]});
+  }
+  const auto vertices = static_cast<Index>(march->distance.size());
   pool.give(std::move(march));
   if (!done) return cancelled_error();
-  result.timing.query = watch.milliseconds();
-  return result;
+  return answer_within(std::move(reached), vertices, query);
 }
 
-Result<DistanceResult> solve_one(const WaveSurface& surface, const MarchSupports& supports,
-                                 MarchPool& pool, const SourceSet& sources,
-                                 const QueryOptions& query, const Progress& progress) {
-  Stopwatch watch;
-  if (!report(progress, "solve", 0.0)) return cancelled_error();
-  if (auto valid = check_reach(query.reach, surface.base.mesh->vertex_count()); !valid) {
-    return valid.error();
-  }
-  const auto seeds = seed_sources(surface, sources);
-  if (!seeds) return seeds.error();
-  if (query.reach.is_bounded()) return solve_near(surface, supports, pool, *seeds, query, progress);
-  March march(surface, supports);
-  if (!march.run(*seeds, {}, progress)) return cancelled_error();
+Result<DistanceResult> FastMarchingMethod::State::answer(const SourceSeeds& seeds,
+                                                         const QueryOptions& query, int,
+                                                         const Progress& progress) const {
+  if (query.reach.is_bounded()) return answer_near(seeds, query, progress);
+  March march(*surface, supports);
+  if (!march.run(seeds, {}, progress)) return cancelled_error();
   DistanceResult result;
   result.distances = std::move(march.distance);
   for (double& distance : result.distances) distance += march.base;
   if (query.nearest) result.nearest_source = std::move(march.label);
-  result.timing.query = watch.lap();
-  if (query.quality) assess_waves(MethodKind::kFastMarching, surface, sources, *seeds, result);
-  watch.lap();
-  for (double& distance : result.distances) distance *= surface.base.length_unit();
-  if (query.reach.sparse) keep_reach(query.reach, result);
-  result.timing.query += watch.lap();
   return result;
 }
 
-}  // namespace
-
-struct FastMarchingMethod::State {
-  std::shared_ptr<const WaveSurface> surface;
-  MarchSupports supports;
-  mutable MarchPool pool;
-  SetThreads threads;
-  SetupTiming timing;
-};
-
 FastMarchingMethod::FastMarchingMethod(std::unique_ptr<const State> state)
-    : state_(std::move(state)) {}
-FastMarchingMethod::~FastMarchingMethod() = default;
+    : WaveMethod(std::move(state)) {}
 
 Result<std::shared_ptr<const FastMarchingMethod>> FastMarchingMethod::build(
-    std::shared_ptr<const WaveSurface> surface, int threads, const Progress& progress) {
+    std::shared_ptr<const WaveSurface> surface, int threads, const Progress& progress) try {
   const Stopwatch watch;
-  const Index faces = surface->face_count();
   if (!report(progress, "operators", 0.0)) return cancelled_error();
-  try {
-    auto state = std::make_unique<State>();
-    state->surface = std::move(surface);
-    state->threads.most = threads;
-    state->threads.nanoseconds = kMarchNanosecondsPerFace * faces;
-    state->supports = build_march_supports(*state->surface);
-    if (!report(progress, "operators", 1.0)) return cancelled_error();
-    state->timing.operators = state->timing.setup = watch.milliseconds();
-    return std::shared_ptr<const FastMarchingMethod>(new FastMarchingMethod(std::move(state)));
-  } catch (const std::bad_alloc&) {
-    return wave_out_of_memory("tables", faces);
-  }
-}
-
-Result<std::vector<DistanceResult>> FastMarchingMethod::solve_each(std::span<const SourceSet> sets,
-                                                                   const QueryOptions& query,
-                                                                   const Progress& progress) const {
-  return solve_sets(
-      sets, state_->threads, progress, [&](const SourceSet& sources, const Progress& part) {
-        return solve_one(*state_->surface, state_->supports, state_->pool, sources, query, part);
-      });
-}
-
-const SetupTiming& FastMarchingMethod::timing() const { return state_->timing; }
-
-double FastMarchingMethod::memory_mb() const {
-  return static_cast<double>(state_->supports.bytes()) / (1024.0 * 1024.0);
-}
-
-const std::shared_ptr<const WaveSurface>& FastMarchingMethod::surface() const {
-  return state_->surface;
-}
-
-const std::vector<Warning>& FastMarchingMethod::warnings() const {
-  return state_->surface->base.warnings;
+  auto state = std::make_unique<State>(surface, threads);
+  if (!report(progress, "operators", 1.0)) return cancelled_error();
+  state->timing.operators = state->timing.setup = watch.milliseconds();
+  return std::shared_ptr<const FastMarchingMethod>(new FastMarchingMethod(std::move(state)));
+} catch (const std::bad_alloc&) {
+  return wave_out_of_memory("tables", surface->face_count());
 }
 
 }  // namespace geotherm

@@ -3,6 +3,8 @@
 
 #include <optional>
 
+#include "solver/core/sorting.h"
+
 namespace geotherm {
 namespace {
 
@@ -92,7 +94,7 @@ void add_corner(const IntrinsicMesh& mesh, Index f, int k, std::vector<MarchSupp
 }  // namespace
 
 std::size_t MarchSupports::bytes() const {
-  return all.capacity() * sizeof(MarchSupport) + start.capacity() * sizeof(std::size_t) +
+  return all.capacity() * sizeof(MarchSupport) + start.capacity() * sizeof(std::uint32_t) +
          at.capacity() * sizeof(Index);
 }
 
@@ -103,19 +105,11 @@ MarchSupports build_march_supports(const WaveSurface& surface) {
   for (Index f = 0; f < mesh.face_count(); ++f) {
     for (int k = 0; k < 3; ++k) add_corner(mesh, f, k, out.all);
   }
-  out.start.assign(surface.base.kept->on_surface.size() + 1, 0);
-  for (const MarchSupport& s : out.all) {
-    ++out.start[s.left + 1];
-    ++out.start[s.right + 1];
-  }
-  for (std::size_t v = 1; v < out.start.size(); ++v) out.start[v] += out.start[v - 1];
-  out.at.resize(2 * out.all.size());
-  std::vector<std::size_t> next(out.start.begin(), out.start.end() - 1);
-  for (std::size_t i = 0; i < out.all.size(); ++i) {
-    for (const Index end : {out.all[i].left, out.all[i].right}) {
-      out.at[next[end]++] = static_cast<Index>(i);
-    }
-  }
+  const auto emit = [&out](std::size_t i, const auto& put) {
+    for (const Index end : {out.all[i].left, out.all[i].right}) put(end, static_cast<Index>(i));
+  };
+  out.at = counting_sort<Index>(out.all.size(), surface.base.kept->on_surface.size(), 1, emit,
+                                out.start);
   return out;
 }
 

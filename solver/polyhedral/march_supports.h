@@ -2,9 +2,11 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <vector>
 
+#include "solver/core/memory.h"
 #include "solver/polyhedral/wave_surface.h"
 
 namespace geotherm {
@@ -22,8 +24,8 @@ struct MarchSupport {
 /// or an edge with three faces and more is in the way, the face stays its support.
 struct MarchSupports {
   std::vector<MarchSupport> all;
-  std::vector<std::size_t> start;  ///< V + 1
-  std::vector<Index> at;           ///< supports whose left or right is the vertex
+  std::vector<std::uint32_t> start;  ///< V + 1
+  RawVector<Index> at;               ///< supports whose left or right is the vertex
 
   std::span<const Index> of(Index vertex) const {
     return {at.data() + start[vertex], at.data() + start[vertex + 1]};

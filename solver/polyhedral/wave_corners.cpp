@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "solver/core/parallel.h"
+#include "solver/core/sorting.h"
 #include "solver/polyhedral/wave_order.h"
 
 namespace geotherm {
@@ -58,10 +59,9 @@ auto face_place(const IntrinsicSurface& base, const WaveTables& tables, SideCode
 /// wave has to be passed from fan to fan.
 class FanMarker {
  public:
-  explicit FanMarker(WaveTables& tables) : tables_(tables), fan_(4 * tables.faces.size()) {}
+  explicit FanMarker(WaveTables& tables) : tables_(tables), fans_(4 * tables.faces.size()) {}
 
   void run(int threads) {
-    for (std::size_t c = 0; c < fan_.size(); ++c) fan_[c] = static_cast<SideCode>(c);
     for (const auto& sides : tables_.sides) {
       if (sides[1] >= 0) {
         join_ends(sides[0], sides[1]);
@@ -70,7 +70,7 @@ class FanMarker {
         for (SideCode i = 1; i <= list[0]; ++i) join_ends(sides[0], list[i]);
       }
     }
-    for (std::size_t c = 0; c < fan_.size(); ++c) fan_[c] = root(static_cast<SideCode>(c));
+    fan_ = std::move(fans_).roots();
     parallel_for(threads, tables_.vertex_count(), kMinCornersPerThread,
                  [this](std::int64_t begin, std::int64_t end) {
                    for (std::int64_t v = begin; v < end; ++v)
@@ -85,15 +85,11 @@ class FanMarker {
   bool runs_back(SideCode code) const {
     return (tables_.faces[face_of_code(code)].reversed >> corner_of_code(code) & 1) != 0;
   }
-  SideCode root(SideCode c) {
-    while (fan_[c] != c) c = fan_[c] = fan_[fan_[c]];
-    return c;
-  }
   void join_ends(SideCode first, SideCode other) {
     const SideCode begin = runs_back(other) ? next_code(other) : other;
     const SideCode end = runs_back(other) ? other : next_code(other);
-    fan_[root(first)] = root(begin);
-    fan_[root(next_code(first))] = root(end);
+    fans_.join(first, begin);
+    fans_.join(next_code(first), end);
   }
   void mark(std::span<const SideCode> corners) {
     const auto elsewhere = [&](SideCode c) { return fan_[c] != fan_[corners.front()]; };
@@ -103,26 +99,18 @@ class FanMarker {
   }
 
   WaveTables& tables_;
-  std::vector<SideCode> fan_;  ///< of a corner: another one of its fan
+  DisjointSets fans_;       ///< of corners
+  std::vector<Index> fan_;  ///< of a corner: another one of its fan
 };
 
 }  // namespace
 
-void list_corners(WaveTables& tables) {
-  tables.corner_start.assign(static_cast<std::size_t>(tables.vertex_count()) + 1, 0);
-  for (const WaveFace& face : tables.faces) {
-    for (const Index v : face.vertex) ++tables.corner_start[v + 1];
-  }
-  for (std::size_t v = 1; v < tables.corner_start.size(); ++v) {
-    tables.corner_start[v] += tables.corner_start[v - 1];
-  }
-  tables.corners.resize(3 * tables.faces.size());
-  std::vector<std::size_t> next(tables.corner_start.begin(), tables.corner_start.end() - 1);
-  for (std::size_t f = 0; f < tables.faces.size(); ++f) {
-    for (int k = 0; k < 3; ++k) {
-      tables.corners[next[tables.faces[f].vertex[k]]++] = static_cast<SideCode>(4 * f) + k;
-    }
-  }
+void list_corners(WaveTables& tables, int threads) {
+  const auto emit = [&tables](std::size_t f, const auto& put) {
+    for (int k = 0; k < 3; ++k) put(tables.faces[f].vertex[k], static_cast<SideCode>(4 * f) + k);
+  };
+  tables.corners = counting_sort<SideCode>(tables.faces.size(), tables.vertex_of_rank.size(),
+                                           threads, emit, tables.corner_start);
 }
 
 void mark_fans(WaveTables& tables, int threads) { FanMarker(tables).run(threads); }

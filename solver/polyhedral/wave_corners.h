@@ -7,7 +7,7 @@
 namespace geotherm {
 
 /// Groups the corners by their vertex.
-void list_corners(WaveTables& tables);
+void list_corners(WaveTables& tables, int threads);
 
 /// Marks in WaveFace::reversed the corners at vertices where several fans of faces touch. Cost: a
 /// pass over the edges and one over the corners.

@@ -25,7 +25,7 @@ struct WavePass {
   const WaveFace* faces;
   const std::array<SideCode, 2>* sides;
   const SideCode* more;
-  const std::size_t* corner_start;  ///< n + 1
+  const std::uint32_t* corner_start;  ///< n + 1
   const SideCode* corners;
 
   double* distance;      ///< n

@@ -151,7 +151,7 @@ WaveTables moved_wave_tables(const WaveTables& earlier, const WaveSurface& befor
       });
   sum_up(blocks, tables);
   rejoin_sides(surface.base, carrier.changed(), threads, tables);
-  list_corners(tables);
+  list_corners(tables, threads);
   mark_touching(tables, threads, surface.base);
   return tables;
 }

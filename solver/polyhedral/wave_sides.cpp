@@ -15,6 +15,9 @@
 namespace geotherm {
 namespace {
 
+/// Minimum faces or edges per thread.
+constexpr std::int64_t kSideGrain = 1 << 14;
+
 class SideJoiner {
  public:
   SideJoiner(const IntrinsicSurface& base, WaveTables& tables)
@@ -28,25 +31,20 @@ class SideJoiner {
   }
 
   void run(int threads) {
-    std::vector<SideCode> alone;
-    for (const auto& block : sums_of_blocks<std::vector<SideCode>>(
-             threads, std::ssize(tables_.faces),
-             [this](std::int64_t begin, std::int64_t end) { return join_twins(begin, end); })) {
-      alone.insert(alone.end(), block.begin(), block.end());
-    }
-    join_others(alone);
+    const auto join = [this](std::int64_t begin, std::int64_t end, std::vector<SideCode>& alone) {
+      join_twins(begin, end, alone);
+    };
+    const std::int64_t faces = std::ssize(tables_.faces);
+    join_others(list_in_parallel<SideCode>(threads, faces, kSideGrain, join));
   }
 
   void run_again(const std::vector<char>& changed, int threads) {
-    std::vector<Index> turned;
-    for (const auto& block : sums_of_blocks<std::vector<Index>>(
-             threads, std::ssize(tables_.sides), [&](std::int64_t begin, std::int64_t end) {
-               return find_turned(changed, begin, end);
-             })) {
-      turned.insert(turned.end(), block.begin(), block.end());
-    }
+    const auto find = [&](std::int64_t begin, std::int64_t end, std::vector<Index>& turned) {
+      find_turned(changed, begin, end, turned);
+    };
+    const std::int64_t edges = std::ssize(tables_.sides);
     std::vector<SideCode> alone;
-    for (const Index edge : turned) {
+    for (const Index edge : list_in_parallel<Index>(threads, edges, kSideGrain, find)) {
       const auto [first, second] = tables_.sides[edge];
       if (second >= 0) {
         join_pair(side_of(first));
@@ -109,9 +107,8 @@ class SideJoiner {
     return (corner_of(side) + 3 - best) % 3;
   }
 
-  /// Returns the sides that have no twin.
-  std::vector<SideCode> join_twins(std::int64_t begin, std::int64_t end) {
-    std::vector<SideCode> alone;
+  /// `alone`: gets the sides that have no twin.
+  void join_twins(std::int64_t begin, std::int64_t end, std::vector<SideCode>& alone) {
     for (std::int64_t i = begin; i < end; ++i) {
       for (int k = 0; k < 3; ++k) {
         const auto code = static_cast<SideCode>(4 * i) + k;
@@ -125,14 +122,12 @@ class SideJoiner {
         }
       }
     }
-    return alone;
   }
 
   /// Edges between faces that are not changed whose first side comes after the second now, and all
   /// with several sides that are no twins.
-  std::vector<Index> find_turned(const std::vector<char>& changed, std::int64_t begin,
-                                 std::int64_t end) const {
-    std::vector<Index> turned;
+  void find_turned(const std::vector<char>& changed, std::int64_t begin, std::int64_t end,
+                   std::vector<Index>& turned) const {
     for (std::int64_t edge = begin; edge < end; ++edge) {
       fetch_faces_of(std::min(edge + kFetchedAhead, end - 1));
       const auto [first, second] = tables_.sides[edge];
@@ -142,7 +137,6 @@ class SideJoiner {
                                    changed[face_of_code(second)] != 0 || comes_first(first, second);
       if (!stays) turned.push_back(static_cast<Index>(edge));
     }
-    return turned;
   }
 
   void fetch_faces_of(std::int64_t edge) const {

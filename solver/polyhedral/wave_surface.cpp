@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "solver/core/parallel.h"
+#include "solver/core/sorting.h"
 #include "solver/geometry/edit.h"
 
 namespace geotherm {
@@ -23,26 +24,16 @@ constexpr double kSurfaceNanosecondsPerFace = 400;
 /// lists their sides.
 void list_sides(WaveEdges& edges) {
   auto& edge = edges.of_side;
-  std::vector<std::size_t> count;
+  Index count = 0;
   for (Side side = 0; side < static_cast<Side>(edge.size()); ++side) {
-    if (edge[side] == side) {
-      edge[side] = static_cast<Index>(count.size());
-      count.push_back(1);
-    } else {
-      edge[side] = edge[edge[side]];  // a lower side, numbered already
-      ++count[edge[side]];
-    }
+    // The edge of a lower side is numbered already.
+    edge[side] = edge[side] == side ? count++ : edge[edge[side]];
   }
-  edges.side_start.resize(count.size() + 1);
-  edges.side_start[0] = 0;
-  for (std::size_t e = 0; e < count.size(); ++e) {
-    edges.side_start[e + 1] = edges.side_start[e] + count[e];
-  }
-  edges.sides.resize(edge.size());
-  std::vector<std::size_t> next(edges.side_start.begin(), edges.side_start.end() - 1);
-  for (Side side = 0; side < static_cast<Side>(edge.size()); ++side) {
-    edges.sides[next[edge[side]]++] = side;
-  }
+  const auto emit = [&edge](std::size_t side, const auto& put) {
+    put(edge[side], static_cast<Side>(side));
+  };
+  edges.sides =
+      counting_sort<Side>(edge.size(), static_cast<std::size_t>(count), 1, emit, edges.side_start);
 }
 
 using Weights = std::array<double, 3>;

@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <array>
+#include <cstdint>
 #include <memory>
 #include <mutex>
 #include <span>
@@ -11,6 +12,7 @@
 #include <vector>
 
 #include "geotherm/polyhedral_methods.h"
+#include "solver/core/memory.h"
 #include "solver/geometry/intrinsic_mesh.h"
 #include "solver/geometry/intrinsic_surface.h"
 
@@ -18,10 +20,10 @@ namespace geotherm {
 
 /// The edges of a triangulation, whatever number of faces they have.
 struct WaveEdges {
-  std::vector<Index> of_side;                 ///< 3F: number of the edge
-  std::vector<std::size_t> side_start = {0};  ///< E + 1
-  std::vector<Side> sides;  ///< of edge e: side_start[e] to side_start[e + 1]; 1 is boundary, 3 and
-                            ///< more a non-manifold edge. Two sides may run opposite ways or not.
+  std::vector<Index> of_side;                   ///< 3F: number of the edge
+  std::vector<std::uint32_t> side_start = {0};  ///< E + 1
+  RawVector<Side> sides;  ///< of edge e: side_start[e] to side_start[e + 1]; 1 is boundary, 3 and
+                          ///< more a non-manifold edge. Two sides may run opposite ways or not.
 };
 
 /// The intrinsic Delaunay triangulation with its edges, whatever number of faces they have: what

@@ -20,15 +20,6 @@ constexpr int kMortonBits = 21;
 /// Minimum vertices or faces per thread.
 constexpr std::int64_t kMinTableRowsPerThread = 1 << 13;
 
-/// Spreads the low bits so that two zeros follow each (Morton 1966).
-std::uint64_t spread(std::uint64_t x) {
-  x = (x | x << 32) & 0x001f00000000ffff;
-  x = (x | x << 16) & 0x001f0000ff0000ff;
-  x = (x | x << 8) & 0x100f00f00f00f00f;
-  x = (x | x << 4) & 0x10c30c30c30c30c3;
-  return (x | x << 2) & 0x1249249249249249;
-}
-
 /// Vertices that faces use, along a space-filling curve.
 std::vector<Index> morton_order(const IntrinsicSurface& base, int threads) {
   std::vector<Index> used;
@@ -51,7 +42,7 @@ std::vector<Index> morton_order(const IntrinsicSurface& base, int threads) {
     for (std::int64_t i = begin; i < end; ++i) {
       const Vec3 at = (base.position(used[i]) / 2 - origin) * steps;
       std::uint64_t code = 0;
-      for (int c = 0; c < 3; ++c) code |= spread(static_cast<std::uint64_t>(at(c))) << c;
+      for (int c = 0; c < 3; ++c) code |= spread_bits(static_cast<std::uint64_t>(at(c))) << c;
       codes[i] = {code, used[i]};
     }
     std::sort(codes.begin() + begin, codes.begin() + end);
@@ -233,7 +224,7 @@ WaveTables build_wave_tables(const WaveSurface& surface, int threads) {
     tables.rank_of_vertex[tables.vertex_of_rank[r]] = static_cast<Index>(r);
   }
   FaceWriter(surface, tables, threads).run();
-  list_corners(tables);
+  list_corners(tables, threads);
   mark_fans(tables, threads);
   mark_touching(tables, threads, surface.base);
   return tables;

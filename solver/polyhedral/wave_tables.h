@@ -40,12 +40,12 @@ struct WaveTables {
   RawVector<std::array<SideCode, 2>> sides;
   std::vector<SideCode> more;
 
-  std::vector<Index> rank_of_vertex;      ///< V and inserted: number here, kNoIndex when in no face
-  std::vector<Index> vertex_of_rank;      ///< n
-  std::vector<Index> rank_of_face;        ///< F: number here of a face of the intrinsic mesh
-  RawVector<Index> intrinsic_face;        ///< F: the inverse
-  std::vector<std::size_t> corner_start;  ///< n + 1
-  std::vector<SideCode> corners;  ///< at each vertex, as the code of the side that begins there
+  std::vector<Index> rank_of_vertex;  ///< V and inserted: number here, kNoIndex when in no face
+  std::vector<Index> vertex_of_rank;  ///< n
+  std::vector<Index> rank_of_face;    ///< F: number here of a face of the intrinsic mesh
+  RawVector<Index> intrinsic_face;    ///< F: the inverse
+  std::vector<std::uint32_t> corner_start;  ///< n + 1
+  RawVector<SideCode> corners;  ///< at each vertex, as the code of the side that begins there
 
   double mean_side = 0, longest_side = 0;  ///< the mean to eight digits
 

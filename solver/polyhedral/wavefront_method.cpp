@@ -1,18 +1,14 @@
 // SPDX-License-Identifier: MIT
-#include "geotherm/polyhedral_methods.h"
-
 #include <algorithm>
 #include <mutex>
 #include <new>
 #include <string>
 #include <utility>
 
-#include "solver/accuracy/check_waves.h"
 #include "solver/core/parallel.h"
 #include "solver/core/stopwatch.h"
-#include "solver/method/reach.h"
-#include "solver/method/solve_sets.h"
 #include "solver/polyhedral/wave_front.h"
+#include "solver/polyhedral/wave_method.h"
 
 namespace geotherm {
 namespace {
@@ -21,39 +17,6 @@ namespace {
 constexpr double kWaveNanosecondsPerFace = 100;
 /// What the tables take for each face.
 constexpr double kSetUpNanoseconds = 250;
-
-/// Fronts that are kept between queries: at a million faces the system's clearing of fresh memory
-/// takes as long as a tenth of the query. Grows to one for each thread.
-class FrontPool {
- public:
-  FrontPool(const WaveTables& tables, int samples) : tables_(tables), samples_(samples) {}
-
-  /// `clean`: rather one that needs no clearing than one that does, or the other way round.
-  std::unique_ptr<WaveFront> take(bool clean) {
-    if (auto front = take_spare(clean)) return front;
-    return std::make_unique<WaveFront>(tables_, samples_);
-  }
-  /// Null where none is free.
-  std::unique_ptr<WaveFront> take_spare(bool clean) {
-    const std::lock_guard lock(mutex_);
-    if (free_.empty()) return nullptr;
-    const auto fits = std::ranges::find(free_, clean, [](const auto& f) { return f->is_clean(); });
-    std::swap(fits == free_.end() ? free_.back() : *fits, free_.back());
-    auto front = std::move(free_.back());
-    free_.pop_back();
-    return front;
-  }
-  void give(std::unique_ptr<WaveFront> front) {
-    const std::lock_guard lock(mutex_);
-    free_.push_back(std::move(front));
-  }
-
- private:
-  const WaveTables& tables_;
-  int samples_;
-  std::mutex mutex_;
-  std::vector<std::unique_ptr<WaveFront>> free_;
-};
 
 /// Memory that a method leaves to the next but one on a surface that moves: fresh memory would have
 /// to be cleared by the system, page by page.
@@ -81,32 +44,36 @@ class SpareWavesPool {
 
 }  // namespace
 
-struct WavefrontMethod::State {
-  std::shared_ptr<const WaveSurface> surface;
-  Samples samples = Samples::kMidpoint;
-  SetThreads threads;
-  WaveTables tables;
-  SetupTiming timing;
-  std::unique_ptr<FrontPool> pool;
-  std::shared_ptr<SpareWavesPool> spare_waves;  ///< where the surface has moved
-
-  State() = default;
-  State(const State&) = delete;
-  State& operator=(const State&) = delete;
-  ~State() {
-    if (spare_waves) spare_waves->give({std::move(tables), pool->take_spare(false)});
+struct WavefrontMethod::State final : WaveMethod::State {
+  State(std::shared_ptr<const WaveSurface> waves, Samples samples_of_edge, int thread_limit)
+      : WaveMethod::State(std::move(waves), thread_limit, kWaveNanosecondsPerFace),
+        samples(samples_of_edge) {}
+  ~State() override {
+    if (spare_waves) spare_waves->give({std::move(tables), take_spare_front(false)});
   }
 
-  MethodKind kind() const {
+  MethodKind kind() const override {
     return samples == Samples::kMidpoint ? MethodKind::kWavefront : MethodKind::kWavefrontFine;
   }
-  int samples_on_edge() const { return samples == Samples::kMidpoint ? 1 : 3; }
+  double bytes() const override { return static_cast<double>(tables.bytes()); }
+  Result<DistanceResult> answer(const SourceSeeds& seeds, const QueryOptions& query, int at_once,
+                                const Progress& progress) const override;
   void move_from(const State& before, int workers);
-  Result<DistanceResult> solve(const SourceSet& sources, const QueryOptions& query,
-                               const Progress& progress) const;
+  /// `clean`: rather one that needs no clearing than one that does, or the other way round. Null
+  /// where none is free.
+  std::unique_ptr<WaveFront> take_spare_front(bool clean) const {
+    return pool.take([clean](const WaveFront& front) { return front.is_clean() == clean; });
+  }
   WaveReach wave_reach(const Reach& reach, std::vector<Index>& ranks) const;
-  void copy_out(const WaveFront& front, bool labels, DistanceResult& result) const;
-  void copy_reached(WaveFront& front, const QueryOptions& query, DistanceResult& result) const;
+  DistanceResult copy_out(const WaveFront& front, bool labels) const;
+  DistanceResult copy_reached(WaveFront& front, const QueryOptions& query) const;
+
+  Samples samples;
+  WaveTables tables;
+  /// At a million faces the system's clearing of fresh memory takes as long as a tenth of the
+  /// query.
+  mutable WorkPool<WaveFront> pool;
+  std::shared_ptr<SpareWavesPool> spare_waves;  ///< where the surface has moved
 };
 
 /// Makes the tables from those of a method with as many samples, whose surface they fit.
@@ -115,36 +82,26 @@ void WavefrontMethod::State::move_from(const State& before, int workers) {
   SpareWaves spare = shared->take();
   tables =
       moved_wave_tables(before.tables, *before.surface, *surface, workers, std::move(spare.tables));
-  pool = std::make_unique<FrontPool>(tables, samples_on_edge());
-  if (spare.front) pool->give(std::make_unique<WaveFront>(tables, std::move(*spare.front)));
+  if (spare.front) pool.give(std::make_unique<WaveFront>(tables, std::move(*spare.front)));
   spare_waves = shared;
 }
 
-Result<DistanceResult> WavefrontMethod::State::solve(const SourceSet& sources,
-                                                     const QueryOptions& query,
-                                                     const Progress& progress) const {
-  Stopwatch watch;
-  if (!report(progress, "solve", 0.0)) return cancelled_error();
-  if (auto valid = check_reach(query.reach, surface->base.mesh->vertex_count()); !valid) {
-    return valid.error();
-  }
-  const auto seeds = seed_sources(*surface, sources);
-  if (!seeds) return seeds.error();
-  DistanceResult result;
+Result<DistanceResult> WavefrontMethod::State::answer(const SourceSeeds& seeds,
+                                                      const QueryOptions& query, int,
+                                                      const Progress& progress) const {
   std::vector<Index> ranks;
   const WaveReach reach = wave_reach(query.reach, ranks);
   const bool bounded = query.reach.is_bounded();
-  auto front = pool->take(bounded);
-  const WaveFront::Outcome outcome = front->run(*surface, *seeds, query.nearest, progress, reach);
+  auto front = take_spare_front(bounded);
+  const int on_edge = samples == Samples::kMidpoint ? 1 : 3;
+  if (!front) front = std::make_unique<WaveFront>(tables, on_edge);
+  const WaveFront::Outcome outcome = front->run(*surface, seeds, query.nearest, progress, reach);
   const std::size_t visits = front->visits();
+  DistanceResult result;
   if (outcome == WaveFront::Outcome::kDone) {
-    if (bounded) {
-      copy_reached(*front, query, result);
-    } else {
-      copy_out(*front, query.nearest, result);
-    }
+    result = bounded ? copy_reached(*front, query) : copy_out(*front, query.nearest);
   }
-  pool->give(std::move(front));
+  pool.give(std::move(front));
   if (outcome == WaveFront::Outcome::kCancelled) return cancelled_error();
   if (outcome == WaveFront::Outcome::kEndless) {
     return Error{ErrorCode::kBudgetEnded,
@@ -152,16 +109,6 @@ Result<DistanceResult> WavefrontMethod::State::solve(const SourceSet& sources,
                      std::to_string(visits) + " visits of edges",
                  {"use ", SettingHint{"method", {"exact", "heat"}}}};
   }
-  result.timing.query = watch.lap();
-  if (bounded) return result;
-  if (query.quality) assess_waves(kind(), *surface, sources, *seeds, result);
-  watch.lap();
-  const auto own = static_cast<std::size_t>(surface->base.mesh->vertex_count());
-  result.distances.resize(own);
-  if (query.nearest) result.nearest_source.resize(own);
-  for (double& distance : result.distances) distance *= surface->base.length_unit();
-  if (query.reach.sparse) keep_reach(query.reach, result);
-  result.timing.query += watch.lap();
   return result;
 }
 
@@ -175,54 +122,28 @@ WaveReach WavefrontMethod::State::wave_reach(const Reach& reach, std::vector<Ind
   return {reach.max_distance * kMore / surface->base.length_unit(), ranks};
 }
 
-/// What is within reach, in model units. Cost: that of what was reached, and where the answer is
-/// neither sparse nor of targets one pass over the vertices.
-void WavefrontMethod::State::copy_reached(WaveFront& front, const QueryOptions& query,
-                                          DistanceResult& result) const {
-  const Reach& reach = query.reach;
+DistanceResult WavefrontMethod::State::copy_reached(WaveFront& front,
+                                                    const QueryOptions& query) const {
   const double unit = surface->base.length_unit();
-  const auto own = surface->base.mesh->vertex_count();
-  const std::vector<Index>& targets = reach.targets;
-  if (!targets.empty()) {  // before the front lets go of them
-    result.vertices = targets;
-    for (const Index v : targets) {
-      const Index rank = tables.rank_of_vertex[v];
-      const double d = rank == kNoIndex ? kUnreached : front.distances()[rank];
-      const double there = (std::max(d, 0.0) + front.base()) * unit;
-      const bool within = there <= reach.max_distance && there < kUnreached;
-      result.distances.push_back(within ? there : kUnreached);
-      if (query.nearest) {
-        result.nearest_source.push_back(within ? front.labels()[rank] : kNoIndex);
-      }
-    }
+  const Index own = surface->base.mesh->vertex_count();
+  const auto from_start = [&](double d) { return (std::max(d, 0.0) + front.base()) * unit; };
+  std::vector<ReachedVertex> reached;
+  for (const Index v : query.reach.targets) {  // before the front lets go of them
+    const Index rank = tables.rank_of_vertex[v];
+    const double d = rank == kNoIndex ? kUnreached : front.distances()[rank];
+    const bool labelled = query.nearest && rank != kNoIndex;
+    reached.push_back({v, from_start(d), labelled ? front.labels()[rank] : kNoIndex});
   }
-  std::vector<WaveFront::Reached> reached = front.take_reached();
-  if (!targets.empty()) return;
-  std::erase_if(reached, [&](WaveFront::Reached& each) {
-    each.rank = tables.vertex_of_rank[each.rank];
-    each.distance = (std::max(each.distance, 0.0) + front.base()) * unit;
-    return each.rank >= own || !(each.distance <= reach.max_distance);
-  });
-  if (reach.sparse) {
-    std::ranges::sort(reached, {}, &WaveFront::Reached::rank);
-    for (const auto& each : reached) {
-      result.vertices.push_back(each.rank);
-      result.distances.push_back(each.distance);
-      if (query.nearest) result.nearest_source.push_back(each.label);
-    }
-    return;
+  for (const auto& [rank, distance, label] : front.take_reached()) {
+    const Index v = tables.vertex_of_rank[rank];
+    if (v < own && query.reach.targets.empty()) reached.push_back({v, from_start(distance), label});
   }
-  result.distances.assign(static_cast<std::size_t>(own), kUnreached);
-  if (query.nearest) result.nearest_source.assign(static_cast<std::size_t>(own), kNoIndex);
-  for (const auto& each : reached) {
-    result.distances[each.rank] = each.distance;
-    if (query.nearest) result.nearest_source[each.rank] = each.label;
-  }
+  return answer_within(std::move(reached), own, query);
 }
 
 /// In the order of the file, inserted vertices last, still in units of the intrinsic mesh.
-void WavefrontMethod::State::copy_out(const WaveFront& front, bool labels,
-                                      DistanceResult& result) const {
+DistanceResult WavefrontMethod::State::copy_out(const WaveFront& front, bool labels) const {
+  DistanceResult result;
   const auto vertices = static_cast<std::size_t>(surface->base.vertex_count());
   const auto distances = front.distances();
   result.distances.assign(vertices, kUnreached);
@@ -233,64 +154,34 @@ void WavefrontMethod::State::copy_out(const WaveFront& front, bool labels,
     result.distances[v] = std::max(distances[rank], 0.0) + front.base();
     if (labels) result.nearest_source[v] = front.labels()[rank];
   }
+  return result;
 }
 
-WavefrontMethod::WavefrontMethod(std::unique_ptr<const State> state) : state_(std::move(state)) {}
-WavefrontMethod::~WavefrontMethod() = default;
+WavefrontMethod::WavefrontMethod(std::unique_ptr<const State> state)
+    : WaveMethod(std::move(state)) {}
 
 Result<std::shared_ptr<const WavefrontMethod>> WavefrontMethod::build(
     std::shared_ptr<const WaveSurface> surface, Samples samples, int threads,
-    const Progress& progress, const WavefrontMethod* earlier) {
+    const Progress& progress, const WavefrontMethod* earlier) try {
   const Stopwatch watch;
-  const Index faces = surface->face_count();
   if (!report(progress, "operators", 0.0)) return cancelled_error();
-  try {
-    auto state = std::make_unique<State>();
-    state->surface = std::move(surface);
-    state->samples = samples;
-    state->threads.most = threads;
-    state->threads.nanoseconds = kWaveNanosecondsPerFace * faces;
-    const int worth = threads_worth_starting(thread_count(threads), kSetUpNanoseconds * faces);
-    const ThreadCrew crew(worth);
-    const State* const before = earlier != nullptr ? earlier->state_.get() : nullptr;
-    if (before != nullptr && before->samples == samples &&
-        can_move_tables(before->surface->base, state->surface->base)) {
-      state->move_from(*before, worth);
-    } else {
-      state->tables = build_wave_tables(*state->surface, worth);
-      state->pool = std::make_unique<FrontPool>(state->tables, state->samples_on_edge());
-    }
-    if (!report(progress, "operators", 1.0)) return cancelled_error();
-    state->timing.operators = state->timing.setup = watch.milliseconds();
-    return std::shared_ptr<const WavefrontMethod>(new WavefrontMethod(std::move(state)));
-  } catch (const std::bad_alloc&) {
-    return wave_out_of_memory("tables", faces);
+  auto state = std::make_unique<State>(surface, samples, threads);
+  const int worth =
+      threads_worth_starting(thread_count(threads), kSetUpNanoseconds * surface->face_count());
+  const ThreadCrew crew(worth);
+  const auto* const before =
+      earlier != nullptr ? static_cast<const State*>(earlier->state_.get()) : nullptr;
+  if (before != nullptr && before->samples == samples &&
+      can_move_tables(before->surface->base, surface->base)) {
+    state->move_from(*before, worth);
+  } else {
+    state->tables = build_wave_tables(*surface, worth);
   }
-}
-
-MethodKind WavefrontMethod::kind() const { return state_->kind(); }
-
-Result<std::vector<DistanceResult>> WavefrontMethod::solve_each(std::span<const SourceSet> sets,
-                                                                const QueryOptions& query,
-                                                                const Progress& progress) const {
-  return solve_sets(sets, state_->threads, progress,
-                    [&](const SourceSet& sources, const Progress& part) {
-                      return state_->solve(sources, query, part);
-                    });
-}
-
-const SetupTiming& WavefrontMethod::timing() const { return state_->timing; }
-
-double WavefrontMethod::memory_mb() const {
-  return static_cast<double>(state_->tables.bytes()) / (1024.0 * 1024.0);
-}
-
-const std::shared_ptr<const WaveSurface>& WavefrontMethod::surface() const {
-  return state_->surface;
-}
-
-const std::vector<Warning>& WavefrontMethod::warnings() const {
-  return state_->surface->base.warnings;
+  if (!report(progress, "operators", 1.0)) return cancelled_error();
+  state->timing.operators = state->timing.setup = watch.milliseconds();
+  return std::shared_ptr<const WavefrontMethod>(new WavefrontMethod(std::move(state)));
+} catch (const std::bad_alloc&) {
+  return wave_out_of_memory("tables", surface->face_count());
 }
 
 }  // namespace geotherm

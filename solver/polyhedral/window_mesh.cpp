@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "solver/polyhedral/window_mesh.h"
 
-#include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <numeric>
+
+#include "solver/core/sorting.h"
 
 namespace geotherm {
 namespace {
@@ -20,15 +20,9 @@ bool runs_opposite(const IntrinsicMesh& mesh, Side s, Side t) {
   return mesh.faces[face_of(s)][corner_of(s)] != mesh.faces[face_of(t)][corner_of(t)];
 }
 
-Index root_of(std::vector<Index>& parent, Index i) {
-  while (parent[i] != i) i = parent[i] = parent[parent[i]];
-  return i;
-}
-
 /// The first corner of the fan that each corner belongs to.
-std::vector<Index> fans(const WaveSurface& surface) {
-  std::vector<Index> parent(surface.edges().of_side.size());
-  std::iota(parent.begin(), parent.end(), Index{0});
+std::vector<Index> fan_of_corners(const WaveSurface& surface) {
+  DisjointSets fans(surface.edges().of_side.size());
   for (Index e = 0; e < surface.edge_count(); ++e) {
     const auto around = surface.sides_of(e);
     for (std::size_t i = 1; i < around.size(); ++i) {
@@ -36,13 +30,11 @@ std::vector<Index> fans(const WaveSurface& surface) {
       const bool opposite = runs_opposite(surface.base.intrinsic, s, t);
       // Side s begins at corner s and ends at the next.
       const Side begin = opposite ? next_side(t) : t, end = opposite ? t : next_side(t);
-      parent[root_of(parent, s)] = root_of(parent, begin);
-      parent[root_of(parent, next_side(s))] = root_of(parent, end);
+      fans.join(s, begin);
+      fans.join(next_side(s), end);
     }
   }
-  for (Index c = 0; c < static_cast<Index>(parent.size()); ++c) root_of(parent, c);
-  for (Index& p : parent) p = root_of(parent, p);
-  return parent;
+  return std::move(fans).roots();
 }
 
 }  // namespace
@@ -79,19 +71,17 @@ void WindowMesh::lay_out_sides() {
 
 void WindowMesh::find_corners() {
   const auto vertices = static_cast<std::size_t>(surface_->base.mesh->vertex_count());
-  first_opposite_.assign(vertices + 1, 0);
-  for (const SideFrame& side : sides_) ++first_opposite_[static_cast<std::size_t>(side.origin) + 1];
-  vertices_in_use_ =
-      static_cast<Index>(vertices - static_cast<std::size_t>(std::count(
-                                        first_opposite_.begin() + 1, first_opposite_.end(), 0U)));
-  std::partial_sum(first_opposite_.begin(), first_opposite_.end(), first_opposite_.begin());
-  opposite_.resize(sides_.size());
-  std::vector<std::size_t> at(first_opposite_.begin(), first_opposite_.end() - 1);
-  for (Side s = 0; s < side_count(); ++s) opposite_[at[side(s).origin]++] = next_side(s);
+  const auto emit = [this](std::size_t s, const auto& put) {
+    put(sides_[s].origin, next_side(static_cast<Side>(s)));
+  };
+  opposite_ = counting_sort<Side>(sides_.size(), vertices, 1, emit, first_opposite_);
+  for (std::size_t v = 0; v < vertices; ++v) {
+    vertices_in_use_ += first_opposite_[v] < first_opposite_[v + 1] ? 1 : 0;
+  }
 }
 
 void WindowMesh::find_bends() {
-  const std::vector<Index> fan = fans(*surface_);
+  const std::vector<Index> fan = fan_of_corners(*surface_);
   const auto vertices = static_cast<std::size_t>(surface_->base.mesh->vertex_count());
   std::vector<double> angle(vertices, 0.0);
   std::vector<double> straight(vertices, 2 * std::numbers::pi);
@@ -113,7 +103,7 @@ void WindowMesh::find_bends() {
 
 double WindowMesh::bytes() const {
   return static_cast<double>(sides_.size() * sizeof(SideFrame) + opposite_.size() * sizeof(Side) +
-                             first_opposite_.size() * sizeof(std::size_t) + sends_.size());
+                             first_opposite_.size() * sizeof(std::uint32_t) + sends_.size());
 }
 
 }  // namespace geotherm

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -63,8 +64,8 @@ class WindowMesh {
 
   const WaveSurface* surface_;
   std::vector<SideFrame> sides_;
-  std::vector<std::size_t> first_opposite_;
-  std::vector<Side> opposite_;
+  std::vector<std::uint32_t> first_opposite_;
+  RawVector<Side> opposite_;
   std::vector<char> sends_;
   Index vertices_in_use_ = 0;
   Index branch_count_ = 0;

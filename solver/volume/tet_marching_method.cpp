@@ -3,64 +3,261 @@
 
 #include <algorithm>
 #include <cmath>
+#include <queue>
+#include <string>
+#include <utility>
+#include <vector>
 
-#include "solver/core/parallel.h"
 #include "solver/core/stopwatch.h"
+#include "solver/geometry/cell_mesh.h"
 #include "solver/method/marching_method.h"
 #include "solver/volume/clean_tets.h"
-#include "solver/volume/fast_marching_tets.h"
+#include "solver/volume/tet_update.h"
 
 namespace geotherm {
 namespace {
 
-/// The sources as points of the volume. Errors: what only triangle meshes have.
-Result<std::vector<VolumePoint>> volume_points(const SourceSet& sources) {
-  if (auto valid = check_space_sources(sources, "vertices or points of tets"); !valid) {
-    return valid.error();
-  }
-  std::vector<VolumePoint> out;
-  for (const SurfacePoint& point : sources.points) {
-    out.push_back(VolumePoint::at_vertex(point.vertex));
-  }
-  for (const CellPoint& point : sources.cell_points) {
-    if (point.weights.size() != 4) {
-      return Error{ErrorCode::kBadInput, "the source in tet " + std::to_string(point.cell) +
-                                             " has " + std::to_string(point.weights.size()) +
-                                             " weights; a tet has 4 corners"};
+/// What fast marching walks over.
+struct MarchedTets {
+  std::shared_ptr<const TetMesh> mesh;
+  double straight_reach;
+  std::vector<Tet> tets;             ///< clean
+  std::vector<Index> original;       ///< their numbers in the mesh, ascending
+  CellTable around;                  ///< the clean tets around each vertex
+  std::vector<double> longest_edge;  ///< V
+};
+
+MarchedTets marched_tets(std::shared_ptr<const TetMesh> mesh, CleanTets clean,
+                         double straight_reach) {
+  MarchedTets out{
+      std::move(mesh), straight_reach, std::move(clean.tets), std::move(clean.original), {}, {}};
+  out.around = CellTable(out.mesh->vertex_count(), static_cast<Index>(out.tets.size()), 1,
+                         [&out](Index t) -> const Tet& { return out.tets[t]; });
+  const auto positions = out.mesh->positions();
+  out.longest_edge.assign(positions.size(), 0);
+  for (const Tet& tet : out.tets) {
+    for (const Index v : tet) {
+      for (const Index w : tet) {
+        const double edge = (positions[v] - positions[w]).norm();
+        out.longest_edge[v] = std::max(out.longest_edge[v], edge);
+      }
     }
-    VolumePoint& to = out.emplace_back();
-    to.tet = point.cell;
-    std::ranges::copy(point.weights, to.weights.begin());
   }
   return out;
 }
 
-class TetMarchingMethod final : public MarchingMethod {
+/// One query. Two kinds of news spread, in the order of distance: that a vertex sees a source, and
+/// that its distance became less. A vertex near a ridge, where sources meet, sees those behind it
+/// as well: the lines to vertices before the ridge may cross faces with corners behind it.
+class TetMarch {
  public:
-  TetMarchingMethod(std::shared_ptr<const TetMesh> mesh, TetFastMarching marching,
-                    std::int64_t bytes, double setup_ms, int threads, double nanoseconds)
-      : MarchingMethod(static_cast<double>(bytes) / (1 << 20), setup_ms, threads, nanoseconds),
-        mesh_(std::move(mesh)),
-        marching_(std::move(marching)) {
-    for (const std::string& note : marching_.notes()) warnings_.push_back({note});
+  explicit TetMarch(const MarchedTets& tets) : m_(tets) {
+    const std::size_t count = m_.mesh->positions().size();
+    out_.distances.assign(count, kUnreached);
+    out_.nearest.assign(count, kNoIndex);
+    straight_.assign(count, 0);
+    first_sight_.assign(count, kNoIndex);
+    sights_of_.assign(count, 0);
+  }
+
+  Result<void> add_vertex(Index v, double offset) {
+    if (v < 0 || v >= m_.mesh->vertex_count()) {
+      return Error{ErrorCode::kBadInput, "source vertex " + std::to_string(v) + " is not one of " +
+                                             std::to_string(m_.mesh->vertex_count()) + " vertices"};
+    }
+    if (m_.around.at(v).empty()) {
+      return Error{ErrorCode::kBadInput, "source vertex " + std::to_string(v) + " is in no tet"};
+    }
+    sources_.push_back({at(v), offset});
+    see(v, static_cast<Index>(sources_.size()) - 1);
+    return {};
+  }
+
+  Result<void> add_point(const CellPoint& point) {
+    const std::string name = "tet " + std::to_string(point.cell);
+    if (!std::ranges::binary_search(m_.original, point.cell)) {
+      return Error{ErrorCode::kBadInput, "source " + name + " is not there, or was left out"};
+    }
+    if (auto valid = check_weights(point.weights, 4, name); !valid) return valid;
+    const Tet& tet = m_.mesh->tets()[point.cell];
+    Vec3 place = Vec3::Zero();
+    for (std::size_t k = 0; k < 4; ++k) place += point.weights[k] * at(tet[k]);
+    sources_.push_back({place, 0});
+    for (const Index v : tet) see(v, static_cast<Index>(sources_.size()) - 1);
+    return {};
+  }
+
+  Result<Marched> march(const Progress& progress) {
+    constexpr std::int64_t kMaxVisits = 1000, kReported = 4096;
+    const auto vertices = static_cast<std::int64_t>(out_.distances.size());
+    std::int64_t visits = 0;
+    while (!queue_.empty()) {
+      const News next = queue_.top();
+      queue_.pop();
+      const double slack = next.source == kNoIndex ? 0 : slack_at(next.vertex);
+      if (next.distance > out_.distances[next.vertex] + slack) continue;  // nearer meanwhile
+      if (++visits % kReported == 0 &&
+          !report(progress, "marching", std::min(1.0, 0.5 * double(visits) / double(vertices)))) {
+        return cancelled_error();
+      }
+      if (visits > kMaxVisits * vertices) {
+        return Error{ErrorCode::kBudgetEnded,
+                     "fast marching visited each of " + std::to_string(vertices) + " vertices " +
+                         std::to_string(kMaxVisits) + " times in the mean without an end"};
+      }
+      spread(next);
+    }
+    return std::move(out_);
   }
 
  private:
+  struct Source {
+    Vec3 place;
+    double offset;
+  };
+  struct News {
+    double distance;
+    Index vertex;
+    Index source;                              ///< that it sees; kNoIndex: its distance became less
+    bool operator<(const News& other) const {  // the queue's top is its largest
+      if (distance != other.distance) return distance > other.distance;
+      return vertex != other.vertex ? vertex > other.vertex : source > other.source;
+    }
+  };
+  struct Sight {
+    Index source, next;
+  };
+  /// Sources that a vertex sees are noted up to this many; of more, as at the centre of a ball
+  /// whose border is the source, only those count that are nearer than all before.
+  static constexpr Index kMaxSights = 8;
+
+  const Vec3& at(Index v) const { return m_.mesh->positions()[v]; }
+
+  /// So much farther than the nearest source may be one that a vertex sees.
+  double slack_at(Index v) const { return sources_.size() > 1 ? 2 * m_.longest_edge[v] : 0; }
+
+  double line_from(Index source, Index v) const {
+    return sources_[source].offset + (sources_[source].place - at(v)).norm();
+  }
+
+  bool sees(Index v, Index source) const {
+    for (Index i = first_sight_[v]; i != kNoIndex; i = sights_[i].next) {
+      if (sights_[i].source == source) return true;
+    }
+    return false;
+  }
+
+  /// The vertex sees the source, which it did not. The straight line is the least there can be.
+  void see(Index v, Index source) {
+    const double line = line_from(source, v);
+    double& held = out_.distances[v];
+    if (line > held + slack_at(v)) return;
+    if (sights_of_[v] >= kMaxSights && line >= held) return;
+    ++sights_of_[v];
+    sights_.push_back({source, first_sight_[v]});
+    first_sight_[v] = static_cast<Index>(sights_.size()) - 1;
+    queue_.push({line, v, source});
+    if (line > held || (line == held && straight_[v] != 0)) return;
+    straight_[v] = 1;
+    set(v, line, source);
+  }
+
+  void set(Index v, double distance, Index source) {
+    out_.distances[v] = distance;
+    out_.nearest[v] = source;
+    queue_.push({distance, v, kNoIndex});
+  }
+
+  /// Offers what a vertex knows to the other corners of its tets.
+  void spread(const News& news) {
+    for (const Index t : m_.around.at(news.vertex)) {
+      const Tet& tet = m_.tets[t];
+      for (int k = 0; k < 4; ++k) {
+        if (tet[k] == news.vertex) continue;
+        const Face face = face_opposite(tet, k);
+        if (news.source == kNoIndex) {
+          offer_plane(tet[k], face, news.vertex);
+        } else {
+          offer_line(tet[k], face, news.source);
+        }
+      }
+    }
+  }
+
+  void offer_line(Index v, const Face& face, Index source) {
+    const Vec3 to_source = sources_[source].place - at(v);
+    if (!(to_source.norm() <= m_.straight_reach) || sees(v, source)) return;
+    const FaceCrossing crossing =
+        cross_face({at(face[0]) - at(v), at(face[1]) - at(v), at(face[2]) - at(v)}, to_source);
+    if (!crossing.crosses) return;
+    for (std::size_t i = 0; i < 3; ++i) {
+      if (crossing.weights[i] > 0 && !sees(face[i], source)) return;
+    }
+    see(v, source);
+  }
+
+  /// From the corners that have the same nearest source alone: distance has a ridge where sources
+  /// meet, and a plane through both sides of it would lie below. Nothing is nearer to a source than
+  /// the straight line.
+  void offer_plane(Index v, const Face& face, Index changed) {
+    constexpr double kRoundOff = 1e-13;
+    const Index source = out_.nearest[changed];
+    if (straight_[v] != 0 && out_.nearest[v] == source) return;
+    std::array<KnownCorner, 3> known;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const bool same = out_.nearest[face[i]] == source;
+      known[i] = {at(face[i]) - at(v), same ? out_.distances[face[i]] : kUnreached};
+    }
+    const double distance = std::max(updated_distance(known), line_from(source, v));
+    if (!(distance < out_.distances[v] * (1 - kRoundOff))) return;
+    straight_[v] = 0;
+    set(v, distance, source);
+  }
+
+  const MarchedTets& m_;
+  std::vector<Source> sources_;
+  std::vector<Index> first_sight_;  ///< V: into sights_, a list for each vertex
+  std::vector<Sight> sights_;
+  std::vector<Index> sights_of_;        ///< V: how many
+  std::vector<std::uint8_t> straight_;  ///< V: the distance is the line to `nearest`
+  Marched out_;
+  std::priority_queue<News> queue_;
+};
+
+class TetMarchingMethod final : public MarchingMethod {
+ public:
+  TetMarchingMethod(MarchedTets tets, const std::vector<std::string>& notes, double setup_ms,
+                    int threads)
+      : MarchingMethod(tets.mesh->vertex_count(), kBytesOfTet * tets.mesh->tet_count() / (1 << 20),
+                       setup_ms, threads, kNanosecondsOfVertex),
+        tets_(std::move(tets)) {
+    for (const std::string& note : notes) warnings_.push_back({note});
+  }
+
+ private:
+  static constexpr double kBytesOfTet = 35, kNanosecondsOfVertex = 2000;
+
   Result<Marched> march(const SourceSet& sources, const Progress& progress) const override {
-    const auto points = volume_points(sources);
-    if (!points) return points.error();
-    // Offsets stand for the points of SourceSet::points; points of cells have none.
-    std::vector<double> offsets = sources.offsets;
-    if (!offsets.empty()) offsets.resize(points->size(), 0.0);
-    auto solved = marching_.solve(*points, offsets, {}, progress);
-    if (!solved) return solved.error();
-    return Marched{std::move(solved->distances), std::move(solved->nearest)};
+    if (auto valid = check_space_sources(sources, "vertices or points of tets"); !valid) {
+      return valid.error();
+    }
+    TetMarch march(tets_);
+    for (std::size_t i = 0; i < sources.points.size(); ++i) {
+      const double offset = sources.offsets.empty() ? 0 : sources.offsets[i];
+      if (auto added = march.add_vertex(sources.points[i].vertex, offset); !added) {
+        return added.error();
+      }
+    }
+    for (const CellPoint& point : sources.cell_points) {
+      if (auto added = march.add_point(point); !added) return added.error();
+    }
+    return march.march(progress);
   }
 
   double eikonal_error(std::span<const double> distances) const override {
-    const auto positions = mesh_->positions();
+    const auto positions = tets_.mesh->positions();
     double error = 0, volume = 0;
-    for (const Tet& tet : mesh_->tets()) {
+    for (const Tet& tet : tets_.mesh->tets()) {
       const TetGradient element =
           tet_gradient(positions[tet[0]], positions[tet[1]], positions[tet[2]], positions[tet[3]]);
       Vec3 gradient = Vec3::Zero();
@@ -72,24 +269,25 @@ class TetMarchingMethod final : public MarchingMethod {
     return volume > 0 ? error / volume : 0.0;
   }
 
-  std::shared_ptr<const TetMesh> mesh_;
-  TetFastMarching marching_;
+  MarchedTets tets_;
 };
 
 }  // namespace
 
 Result<std::shared_ptr<const DistanceMethod>> build_tet_marching(
-    std::shared_ptr<const TetMesh> mesh, int threads, const Progress& progress) {
+    std::shared_ptr<const TetMesh> mesh, int threads, const Progress& progress,
+    double straight_reach) {
   if (!report(progress, "operators", 0.0)) return cancelled_error();
   const Stopwatch watch;
-  constexpr std::int64_t kBytesOfTet = 35;
-  const std::int64_t bytes = kBytesOfTet * mesh->tet_count();
-  constexpr double kNanosecondsOfVertex = 2000;
-  const double nanoseconds = kNanosecondsOfVertex * mesh->vertex_count();
-  auto marching = TetFastMarching::build(mesh);
-  if (!marching) return marching.error();
+  CleanTets clean = clean_tets(*mesh);
+  if (clean.tets.empty()) {
+    return Error{ErrorCode::kBadInput,
+                 "none of the " + std::to_string(mesh->tet_count()) + " tetrahedra has a volume"};
+  }
+  const std::vector<std::string> notes = clean.notes();
+  MarchedTets tets = marched_tets(std::move(mesh), std::move(clean), straight_reach);
   return std::shared_ptr<const DistanceMethod>(std::make_shared<const TetMarchingMethod>(
-      std::move(mesh), *std::move(marching), bytes, watch.milliseconds(), threads, nanoseconds));
+      std::move(tets), notes, watch.milliseconds(), threads));
 }
 
 }  // namespace geotherm

@@ -27,6 +27,20 @@ TEST_P(ParallelFor, VisitsEveryIndexOnce) {
   }
 }
 
+TEST_P(ParallelFor, ListsStandInTheOrderOfTheirBlocks) {
+  for (const std::int64_t count : {0, 1, 64, 1000}) {
+    const auto odd = list_in_parallel<std::int64_t>(
+        GetParam(), count, 10, [](std::int64_t begin, std::int64_t end, auto& list) {
+          for (std::int64_t i = begin; i < end; ++i) {
+            if (i % 2 == 1) list.push_back(i);
+          }
+        });
+    ASSERT_EQ(std::ssize(odd), count / 2);
+    for (std::int64_t i = 0; i < count / 2; ++i)
+      EXPECT_EQ(odd[static_cast<std::size_t>(i)], 2 * i + 1);
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Threads, ParallelFor, testing::Values(1, 2, 5));
 
 TEST_P(ParallelFor, BothFunctionsRunAndFailuresReachTheCaller) {

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <random>
+#include <utility>
+#include <vector>
 
 #include "solver/core/sorting.h"
 
@@ -59,6 +61,13 @@ TEST(FindBytes, GoesThroughAllOfAValueAlsoThoseItChanges) {
   });
   EXPECT_EQ(found, (std::vector<Index>{0, 2, 3, 6}));
   for_each_with_value(std::vector<char>(), char{1}, [](Index) { FAIL(); });
+}
+
+TEST(DisjointSets, AreCalledByTheirLowestMembers) {
+  DisjointSets sets(7);
+  for (const auto& [a, b] : {std::pair(6, 3), std::pair(3, 5), std::pair(4, 1)}) sets.join(a, b);
+  EXPECT_EQ(sets.root(6), 3);
+  EXPECT_EQ(std::move(sets).roots(), (std::vector<Index>{0, 1, 2, 3, 1, 3, 3}));
 }
 
 INSTANTIATE_TEST_SUITE_P(Threads, SortByThreads, testing::Values(1, 2, 3, 7));

@@ -135,10 +135,10 @@ TEST(MovingBrush, UpdatesTheOperators) {
     EXPECT_EQ(mesh_now.pattern, pattern_hash(pattern));
     EXPECT_EQ(mesh_now.lower.row, lower_of(pattern, 1).row);
     Index rows = 0, faces = 0;
-    for (const FaceRange& range : mesh_now.ranges) {
+    for (const RowRange& range : mesh_now.ranges) {
       EXPECT_EQ(range.first_row, std::exchange(rows, range.end_row));
-      EXPECT_EQ(range.first_face, std::exchange(faces, range.end_face));
-      for (Index f = range.first_face; f < range.end_face; ++f) {
+      EXPECT_EQ(range.first_cell, std::exchange(faces, range.end_cell));
+      for (Index f = range.first_cell; f < range.end_cell; ++f) {
         const auto [low, high] = std::ranges::minmax(mesh_now.faces[f]);
         EXPECT_TRUE(low >= range.first_row && high < range.end_row);
       }

@@ -125,10 +125,10 @@ class FaceRanges : public testing::TestWithParam<std::string> {
 TEST_P(FaceRanges, HoldEveryRowOnceAndFacesOfTheirRowsOnly) {
   ASSERT_GT(mesh.ranges.size(), 3U);
   Index row = 0, face = 0;
-  for (const FaceRange& range : mesh.ranges) {
+  for (const RowRange& range : mesh.ranges) {
     EXPECT_EQ(range.first_row, row);
-    EXPECT_EQ(range.first_face, face);
-    for (; face < range.end_face; ++face) {
+    EXPECT_EQ(range.first_cell, face);
+    for (; face < range.end_cell; ++face) {
       for (const Index corner : mesh.faces[static_cast<std::size_t>(face)]) {
         ASSERT_GE(corner, range.first_row);
         ASSERT_LT(corner, range.end_row);

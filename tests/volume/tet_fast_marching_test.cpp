@@ -5,22 +5,34 @@
 #include <memory>
 
 #include "bench/models/volumes.h"
-#include "solver/volume/fast_marching_tets.h"
+#include "solver/volume/tet_marching_method.h"
 #include "solver/volume/tet_update.h"
 #include "tests/support/dice.h"
 
 namespace geotherm::test {
 namespace {
 
-TetFastMarching marching_on(TetMesh mesh) {
-  return *TetFastMarching::build(std::make_shared<const TetMesh>(std::move(mesh)));
+std::shared_ptr<const DistanceMethod> marching_on(TetMesh mesh,
+                                                  double straight_reach = kUnreached) {
+  return *build_tet_marching(std::make_shared<const TetMesh>(std::move(mesh)), 1, {},
+                             straight_reach);
+}
+
+DistanceResult marched(const DistanceMethod& method, const SourceSet& sources) {
+  QueryOptions query;
+  query.nearest = true;
+  return *method.solve(sources, query);
+}
+
+SourceSet in_tet(Index tet, std::vector<double> weights) {
+  SourceSet set;
+  set.cell_points = {{tet, std::move(weights)}};
+  return set;
 }
 
 /// Mean of the error over the mean distance, both from vertex 0 in a convex volume.
 double error_from_first(const TetMesh& mesh, double straight_reach) {
-  const std::vector<VolumePoint> source = {VolumePoint::at_vertex(0)};
-  const TetMarchingOptions options{straight_reach};
-  const TetDistances d = *marching_on(mesh).solve(source, {}, options);
+  const DistanceResult d = marched(*marching_on(mesh, straight_reach), SourceSet::of_vertices({0}));
   double error = 0, all = 0;
   for (Index v = 0; v < mesh.vertex_count(); ++v) {
     const double line = (mesh.positions()[v] - mesh.positions()[0]).norm();
@@ -120,8 +132,8 @@ TEST(TetMarching, BendsRoundACorner) {
   for (const Index n : {4, 8, 16}) {
     const TetMesh mesh =
         slab(n, [](const Vec3& p) { return p.x() > 1 && p.y() < 1; });  // an L in the plane
-    const std::vector<VolumePoint> source = {closest_point(mesh, {0, 0, 0})->point};
-    const TetDistances d = *marching_on(mesh).solve(source);
+    const Index source = closest_point(mesh, {0, 0, 0})->point.vertex;
+    const DistanceResult d = marched(*marching_on(mesh), SourceSet::of_vertices({source}));
     double error = 0;
     int reached = 0;
     for (Index v = 0; v < mesh.vertex_count(); ++v) {
@@ -159,50 +171,47 @@ TEST(TetMarching, ObtuseAndUnevenTetsDoNotMatter) {
 
 TEST(TetMarching, KnowsSeveralSourcesOffsetsAndPointsInside) {
   const TetMesh box = make_box_tets(6, 6, 6, Vec3(1, 1, 1));
-  const TetFastMarching marching = marching_on(box);
-  const Vec3 a(0.31, 0.42, 0.17), b(0.8, 0.9, 0.7);
-  const std::vector<VolumePoint> points = {closest_point(box, a)->point,
-                                           closest_point(box, b)->point};
-  const std::vector<double> offsets = {0.25, 0};
-  const TetDistances d = *marching.solve(points, offsets);
+  const Index vertex = 72;  // of the inner ones
+  const Vec3 a = box.positions()[vertex], b(0.8, 0.9, 0.7);
+  const VolumePoint inside = closest_point(box, b)->point;
+  SourceSet sources = in_tet(inside.tet, {inside.weights.begin(), inside.weights.end()});
+  sources.points = {SurfacePoint::at_vertex(vertex)};
+  sources.offsets = {0.25};
+  const DistanceResult d = marched(*marching_on(box), sources);
   for (Index v = 0; v < box.vertex_count(); ++v) {
     const double from_a = 0.25 + (box.positions()[v] - a).norm();
     const double from_b = (box.positions()[v] - b).norm();
     EXPECT_NEAR(d.distances[v], std::min(from_a, from_b), 1e-13);
     if (std::abs(from_a - from_b) > 1e-9) {
-      EXPECT_EQ(d.nearest[v], from_a < from_b ? 0 : 1);
+      EXPECT_EQ(d.nearest_source[v], from_a < from_b ? 0 : 1);
     }
   }
 }
 
 TEST(TetMarching, DoesNotReachOtherComponents) {
   const TetMesh mesh = slab(4, [](const Vec3& p) { return p.x() > 0.5 && p.x() < 1; });
-  const TetDistances d =
-      *marching_on(mesh).solve(std::vector<VolumePoint>{VolumePoint::at_vertex(0)});
+  const DistanceResult d = marched(*marching_on(mesh), SourceSet::of_vertices({0}));
   for (Index v = 0; v < mesh.vertex_count(); ++v) {
     EXPECT_EQ(d.distances[v] < kUnreached, mesh.positions()[v].x() <= 0.5);
-    EXPECT_EQ(d.nearest[v], mesh.positions()[v].x() <= 0.5 ? 0 : kNoIndex);
+    EXPECT_EQ(d.nearest_source[v], mesh.positions()[v].x() <= 0.5 ? 0 : kNoIndex);
   }
 }
 
 TEST(TetMarching, SaysWhatIsWrongWithItsSources) {
-  const TetFastMarching marching = marching_on(make_box_tets(1, 1, 1, Vec3(1, 1, 1)));
-  const auto said = [&marching](const std::vector<VolumePoint>& points,
-                                const std::vector<double>& offsets = {}) {
-    const auto d = marching.solve(points, offsets);
+  const auto marching = marching_on(make_box_tets(1, 1, 1, Vec3(1, 1, 1)));
+  const auto said = [&marching](const SourceSet& sources) {
+    const auto d = marching->solve(sources);
     return d ? "" : sentence(d.error());
   };
   EXPECT_EQ(said({}), "there is no source");
-  EXPECT_EQ(said({VolumePoint::at_vertex(8)}), "source vertex 8 is not one of 8 vertices");
-  EXPECT_EQ(said({VolumePoint::in_tet(6, {1, 0, 0, 0})}),
-            "source tetrahedron 6 is not there, or was left out");
-  EXPECT_EQ(said({VolumePoint::in_tet(2, {1, 1, 0, 0})}),
-            "the weights of a source in tetrahedron 2 are negative or do not sum to 1");
-  EXPECT_EQ(said({VolumePoint::at_vertex(0)}, {-1}),
-            "the offset of source 0 is negative or not finite");
-  EXPECT_EQ(said({VolumePoint::at_vertex(0)}, {0, 0}), "2 offsets for 1 sources");
-  const auto flat = TetFastMarching::build(std::make_shared<const TetMesh>(
-      *TetMesh::build({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}}, {{0, 1, 2, 3}})));
+  EXPECT_EQ(said(SourceSet::of_vertices({8})), "source vertex 8 is not one of 8 vertices");
+  EXPECT_EQ(said(in_tet(6, {1, 0, 0, 0})), "source tet 6 is not there, or was left out");
+  EXPECT_EQ(said(in_tet(2, {1, 1, 0, 0})),
+            "the source in tet 2 needs 4 weights that are not negative and sum to 1");
+  const auto flat =
+      build_tet_marching(std::make_shared<const TetMesh>(*TetMesh::build(
+                             {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}}, {{0, 1, 2, 3}})),
+                         1);
   EXPECT_EQ(sentence(flat.error()), "none of the 1 tetrahedra has a volume");
 }
 

@@ -210,9 +210,6 @@ class Analysis {
   virtual Result<std::unique_ptr<Factorization>> factorize(
       std::shared_ptr<const SymmetricOperator> matrix, const FactorOptions& options) const = 0;
 
-  /// Memory held; 0 where nobody counts.
-  virtual std::int64_t bytes() const { return 0; }
-
   /// FactorStats::bytes of every factor of this pattern, known before one is made; 0 where none is
   /// held.
   virtual std::int64_t factor_bytes(FactorStorage /*storage*/) const { return 0; }

@@ -20,12 +20,31 @@ Result<std::shared_ptr<const WaveSurface>> build_wave_surface(
     std::shared_ptr<const TriangleMesh> mesh, const Progress& progress = {}, int threads = 1,
     const WaveSurface* earlier = nullptr);
 
+/// What the three have in common.
+class WaveMethod : public DistanceMethod {
+ public:
+  ~WaveMethod() override;
+  MethodKind kind() const override;
+  Result<std::vector<DistanceResult>> solve_each(std::span<const SourceSet> sets,
+                                                 const QueryOptions& query = {},
+                                                 const Progress& progress = {}) const override;
+  const SetupTiming& timing() const override;
+  double memory_mb() const override;
+  const std::vector<Warning>& warnings() const override;
+  const std::shared_ptr<const WaveSurface>& surface() const;  ///< as it was given
+
+ protected:
+  struct State;
+  explicit WaveMethod(std::unique_ptr<const State> state);
+  std::unique_ptr<const State> state_;
+};
+
 /// Near-exact distance by waves over the edges of the intrinsic Delaunay triangulation, each fitted
 /// from the distances at an edge's ends and at samples between them (docs/numerics.md,
 /// "Wavefront"). Quality figures: max_source_distance (0 but for round-off: a source starts at its
 /// offset and can only fall) and eikonal_error_mean alone. A query ends with kBudgetEnded
 /// where values would fall for ever.
-class WavefrontMethod final : public DistanceMethod {
+class WavefrontMethod final : public WaveMethod {
  public:
   /// Samples inside an edge: its midpoint, or its quarter points.
   enum class Samples { kMidpoint, kQuarters };
@@ -37,45 +56,23 @@ class WavefrontMethod final : public DistanceMethod {
       std::shared_ptr<const WaveSurface> surface, Samples samples, int threads = 0,
       const Progress& progress = {}, const WavefrontMethod* earlier = nullptr);
 
-  ~WavefrontMethod() override;
-  MethodKind kind() const override;
-  Result<std::vector<DistanceResult>> solve_each(std::span<const SourceSet> sets,
-                                                 const QueryOptions& query = {},
-                                                 const Progress& progress = {}) const override;
-  const SetupTiming& timing() const override;
-  double memory_mb() const override;
-  const std::vector<Warning>& warnings() const override;
-  const std::shared_ptr<const WaveSurface>& surface() const;  ///< as it was given
-
  private:
   struct State;
   explicit WavefrontMethod(std::unique_ptr<const State> state);
-  std::unique_ptr<const State> state_;
 };
 
 /// First-order fast marching with planar updates and unfolded supports at obtuse angles (Kimmel,
 /// Sethian 1998), on the intrinsic Delaunay triangulation: the classic to compare with. Quality
 /// figures: those of WavefrontMethod.
-class FastMarchingMethod final : public DistanceMethod {
+class FastMarchingMethod final : public WaveMethod {
  public:
   /// Errors: kOutOfMemory, kCancelled. Cost: O(F).
   static Result<std::shared_ptr<const FastMarchingMethod>> build(
       std::shared_ptr<const WaveSurface> surface, int threads = 0, const Progress& progress = {});
 
-  ~FastMarchingMethod() override;
-  MethodKind kind() const override { return MethodKind::kFastMarching; }
-  Result<std::vector<DistanceResult>> solve_each(std::span<const SourceSet> sets,
-                                                 const QueryOptions& query = {},
-                                                 const Progress& progress = {}) const override;
-  const SetupTiming& timing() const override;
-  double memory_mb() const override;
-  const std::vector<Warning>& warnings() const override;
-  const std::shared_ptr<const WaveSurface>& surface() const;  ///< as it was given
-
  private:
   struct State;
   explicit FastMarchingMethod(std::unique_ptr<const State> state);
-  std::unique_ptr<const State> state_;
 };
 
 /// Exact polyhedral distance by window propagation, to round-off: all source kinds, offsets, labels
@@ -85,27 +82,16 @@ class FastMarchingMethod final : public DistanceMethod {
 /// those of one solve_each() fill 1.5 GiB, of which each set that is solved at once has its share.
 /// Cost: 15 to 60 windows a face on models as they come, a few on planes.
 /// Sources: Mitchell, Mount, Papadimitriou 1987; Chen, Han 1990; Xin, Wang 2009.
-class ExactMethod final : public DistanceMethod {
+class ExactMethod final : public WaveMethod {
  public:
   /// Errors: kCancelled, kOutOfMemory. Cost: O(F). Source sets are solved on `threads` threads,
   /// each on one.
   static Result<std::shared_ptr<const ExactMethod>> build(
       std::shared_ptr<const WaveSurface> surface, int threads = 0, const Progress& progress = {});
 
-  ~ExactMethod() override;
-  MethodKind kind() const override { return MethodKind::kExact; }
-  Result<std::vector<DistanceResult>> solve_each(std::span<const SourceSet> sets,
-                                                 const QueryOptions& query = {},
-                                                 const Progress& progress = {}) const override;
-  const SetupTiming& timing() const override;
-  double memory_mb() const override;
-  const std::vector<Warning>& warnings() const override;
-  const std::shared_ptr<const WaveSurface>& surface() const;  ///< as it was given
-
  private:
   struct State;
   explicit ExactMethod(std::unique_ptr<const State> state);
-  std::unique_ptr<const State> state_;
 };
 
 }  // namespace geotherm
