@@ -129,26 +129,17 @@ struct SideCut {
 
 std::vector<Side> non_delaunay_sides(const IntrinsicMesh& mesh, int threads) {
   constexpr std::int64_t kGrain = 1 << 15;  // minimum sides per thread
-  const auto count = static_cast<std::int64_t>(mesh.twin.size());
-  const int pieces = piece_count(threads, count, kGrain);
-  std::vector<std::vector<Side>> found(static_cast<std::size_t>(pieces));
-  for_pieces(pieces, count, [&](int piece, std::int64_t begin, std::int64_t end) {
+  const auto list = [&mesh](std::int64_t begin, std::int64_t end, std::vector<Side>& found) {
     for (auto side = static_cast<Side>(begin); side < static_cast<Side>(end); ++side) {
       const Side other = mesh.twin[side];
       if (other <= side) continue;
       // Two angles of at most 90 degrees, as at most edges: their cotangents need not be known.
       const bool in_doubt = may_be_obtuse(mesh.lengths[face_of(side)], corner_of(side)) ||
                             may_be_obtuse(mesh.lengths[face_of(other)], corner_of(other));
-      if (in_doubt && weight(mesh, side) < -kFlipTolerance) {
-        found[static_cast<std::size_t>(piece)].push_back(side);
-      }
+      if (in_doubt && weight(mesh, side) < -kFlipTolerance) found.push_back(side);
     }
-  });
-  std::vector<Side> sides = std::move(found.front());
-  for (std::size_t p = 1; p < found.size(); ++p) {
-    sides.insert(sides.end(), found[p].begin(), found[p].end());
-  }
-  return sides;
+  };
+  return list_in_parallel<Side>(threads, std::ssize(mesh.twin), kGrain, list);
 }
 
 Index count_non_delaunay(const IntrinsicMesh& mesh, int threads) {

@@ -40,21 +40,12 @@ double addition(const Lengths& l, double strict) {
 std::vector<Index> faces_that_fail(const std::vector<Lengths>& lengths, double strict,
                                    int threads) {
   constexpr std::int64_t kGrain = 1 << 15;  // minimum faces per thread
-  const auto count = static_cast<std::int64_t>(lengths.size());
-  const int pieces = piece_count(threads, count, kGrain);
-  std::vector<std::vector<Index>> found(static_cast<std::size_t>(pieces));
-  for_pieces(pieces, count, [&](int piece, std::int64_t begin, std::int64_t end) {
-    for (std::int64_t f = begin; f < end; ++f) {
-      if (addition(lengths[static_cast<std::size_t>(f)], strict) > 0) {
-        found[static_cast<std::size_t>(piece)].push_back(static_cast<Index>(f));
-      }
+  const auto list = [&](std::int64_t begin, std::int64_t end, std::vector<Index>& found) {
+    for (auto f = static_cast<Index>(begin); f < static_cast<Index>(end); ++f) {
+      if (addition(lengths[f], strict) > 0) found.push_back(f);
     }
-  });
-  std::vector<Index> out = std::move(found.front());
-  for (std::size_t p = 1; p < found.size(); ++p) {
-    out.insert(out.end(), found[p].begin(), found[p].end());
-  }
-  return out;
+  };
+  return list_in_parallel<Index>(threads, std::ssize(lengths), kGrain, list);
 }
 
 /// Lengthens the edges of failing faces, then those of neighbours that fail because of it.

@@ -57,7 +57,7 @@ struct MeshReport : MeshSummary {
   bool orientable = true;                 ///< after turning them, all neighbours agree
   Index non_delaunay_edges = 0;           ///< edges with a negative cotangent weight
   Index tufted_components = 0;            ///< that are no oriented manifold along all their edges
-  Mollification mollified;                ///< what will be added to edges, model units
+  Mollification mollified;                ///< added to edges where no flip is made, model units
   RefinementCounts refinement;            ///< what LaplacianKind::kAuto inserts
   std::int64_t euler_characteristic = 0;  ///< V - E + F, of what the faces use
 
