@@ -7,8 +7,8 @@
 #include "geotherm/build_method.h"
 #include "tests/support/shapes.h"
 
-// Flat obtuse faces, whose distances are those of the plane they lie in. What lengthens edges so that
-// triangle inequalities are strict makes a triangle of this shape many times as high.
+// Flat obtuse faces, whose distances are those of the plane they lie in. What lengthens edges so
+// that triangle inequalities are strict makes a triangle of this shape many times as high.
 namespace geotherm::test {
 namespace {
 
