@@ -110,7 +110,7 @@ Result<CommandOutput> run_each(const SolveArguments& arguments, const Progress& 
   if (sums.unreached > 0 && !work->reach.is_bounded())
     figures->warnings.push_back({unreached_note(*work, sums.unreached)});
   CommandOutput out{"", figures->warnings, {}};
-  out.note = sample_note(arguments, outputs, *figures);
+  out.note = accuracy_note(arguments.json, outputs, arguments.quiet, figures->error);
   const auto table = [&] {
     return many_table(*work, *figures,
                       {{"model", one_line(work->model.name)},
@@ -362,7 +362,7 @@ Result<CommandOutput> run_pairs(const SolveArguments& arguments, const Progress&
     if (!written) return written.error();
   }
   if (kept) kept->discard();
-  out.note = sample_note(arguments, outputs, *figures);
+  out.note = accuracy_note(arguments.json, outputs, arguments.quiet, figures->error);
   return finish_command(
       std::move(out), outputs, arguments.json,
       [&] { return pairs_json(*work, *figures, pairs, apart, arguments.symmetric); },

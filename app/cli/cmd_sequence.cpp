@@ -245,10 +245,7 @@ Result<CommandOutput> run_sequence(const SolveArguments& arguments, const Progre
                         {"unreached", sums.unreached}};
     return json;
   };
-  if (figures->answer->error) {
-    out.note = accuracy_note(arguments.json, outputs, arguments.quiet, *figures->answer->error,
-                             accuracy_line(*figures->answer->error));
-  }
+  out.note = accuracy_note(arguments.json, outputs, arguments.quiet, figures->answer->error);
   return finish_command(std::move(out), outputs, arguments.json, report, [&] {
     const std::int64_t solved = sequence->frames.count() - std::ssize(figures->bad);
     return sequence_table(*sequence, *figures, sums, path,

@@ -376,8 +376,8 @@ Result<CommandOutput> run_shared(const SolveArguments& arguments, const Progress
   }
   if (answer->error) {
     if (auto poor = accuracy_warning(*answer->error, line)) out.warnings.push_back(*poor);
-    out.note = accuracy_note(arguments.json, work->outputs, arguments.quiet, *answer->error, line);
   }
+  out.note = accuracy_note(arguments.json, work->outputs, arguments.quiet, answer->error);
   return finish_command(
       std::move(out), work->outputs, arguments.json,
       [&] { return shared_json(*work, *answer, ranks->count(), peak_mb); },

@@ -298,13 +298,6 @@ Result<ManyFigures> solve_many(const ManySources& work, const SolveArguments& ar
   return work.ranks.agree_on(solve_share(work, arguments, take, output, progress, announce));
 }
 
-std::string sample_note(const SolveArguments& arguments, const Outputs& outputs,
-                        const ManyFigures& figures) {
-  if (!figures.error) return {};
-  return accuracy_note(arguments.json, outputs, arguments.quiet, figures.error->report,
-                       accuracy_line(*figures.error));
-}
-
 std::string unreached_note(const ManySources& work, std::int64_t unreached) {
   return counted(unreached, "distance is", "distances are") +
          " infinite: no way leads there from the source (" +

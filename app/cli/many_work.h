@@ -121,10 +121,6 @@ Result<ManyFigures> solve_many(const ManySources& work, const SolveArguments& ar
                                const TakeRow& take, const std::string& output,
                                const Progress& progress, const Announce& announce);
 
-/// accuracy_note() of what was checked.
-std::string sample_note(const SolveArguments& arguments, const Outputs& outputs,
-                        const ManyFigures& figures);
-
 /// Says why so many distances are infinite.
 std::string unreached_note(const ManySources& work, std::int64_t unreached);
 

@@ -317,11 +317,12 @@ Json error_json(const AccuracyReport& report) {
 }
 
 Json error_json(const SampleCheck& check) {
-  Json json = error_json(check.report);
-  if (!check.report.measured) return json;
-  json["sources_checked"] = check.report.sets;
+  const AccuracyReport& report = check;
+  Json json = error_json(report);
+  if (!report.measured) return json;
+  json["sources_checked"] = report.sets;
   json["sources"] = check.of;
-  json["worst_source"] = check.worst;
+  json["worst_source"] = report.worst_set;
   return json;
 }
 
