@@ -115,7 +115,7 @@ Result<Model> build_polygons(const geotherm_shape& shape) {
       {*std::move(positions), {starts->begin(), starts->end()}, *std::move(corners)});
   if (!space) return space.error();
   Model model;
-  model.mesh = (*space)->triangles();
+  model.mesh = (*space)->drawn();
   model.space = *std::move(space);
   return model;
 }

@@ -57,7 +57,7 @@ Result<Model> model_of_polygons(const ModelInput& input, std::string name,
   if (!file) return file.error();
   auto space = PolygonSpace::build(std::move(file->mesh));
   if (!space) return about(one_line(path), space.error());
-  Model model{std::move(name), path, (*space)->triangles(), 0, {}};
+  Model model{std::move(name), path, (*space)->drawn(), 0, {}};
   for (std::string& note : file->notes) model.notes.push_back({std::move(note)});
   model.space = *std::move(space);
   return model;
