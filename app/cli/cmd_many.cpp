@@ -57,7 +57,7 @@ Result<void> expect_rows(const SolveArguments& arguments, Outputs& outputs) {
   return expected ? expect_report(arguments.json, outputs) : expected;
 }
 
-Json each_json(const ManySources& work, const ManyFigures& figures, const RowSums& sums,
+Json each_json(const ManySources& work, const ManyFigures& figures, const DistanceSummary& sums,
                NpyType type, const RowsFile& file) {
   Json json = many_json(work, figures);
   json["rows"] = work.sources.sets.size();
@@ -65,8 +65,7 @@ Json each_json(const ManySources& work, const ManyFigures& figures, const RowSum
   json["dtype"] = to_text(type);
   json["bytes"] = file.bytes();
   if (const auto entries = file.entries()) json["entries"] = *entries;
-  json["distance"] = {
-      {"min", sums.least}, {"max", sums.most}, {"mean", sums.mean}, {"unreached", sums.unreached}};
+  json["distance"] = distance_json(sums);
   return json;
 }
 
@@ -83,7 +82,7 @@ Result<CommandOutput> run_each(const SolveArguments& arguments, const Progress& 
   const std::string& path = arguments.outputs.front();
   work->reach.sparse = is_npz(path);
   const auto rows = static_cast<std::int64_t>(work->sources.sets.size());
-  RowSums sums;
+  DistanceSummary sums;
   auto file = RowsFile::open(path, *work, *type,
                              [&](std::size_t, std::span<const double> row) -> Result<void> {
                                sums.add(row);
@@ -115,8 +114,7 @@ Result<CommandOutput> run_each(const SolveArguments& arguments, const Progress& 
     return many_table(*work, *figures,
                       {{"model", one_line(work->model.name)},
                        {"array", one_line(path) + ": " + size},
-                       {"distance", significant(sums.least) + " to " + significant(sums.most) +
-                                        ", mean " + significant(sums.mean)}});
+                       {"distance", distances_in_words(sums)}});
   };
   return finish_command(
       std::move(out), outputs, arguments.json,

@@ -183,15 +183,14 @@ Result<OpenSink> open_sink(const std::string& path, const Sequence& sequence, Np
 }
 
 std::string sequence_table(const Sequence& sequence, const SequenceFigures& figures,
-                           const RowSums& sums, const std::string& path,
+                           const DistanceSummary& sums, const std::string& path,
                            const std::string& written) {
   const Answer& answer = *figures.answer;
   TextTable table({{"", TextTable::Align::kLeft}, {"", TextTable::Align::kLeft}});
   table.add_row({"model", one_line(sequence.model.name) + ": " + mesh_in_words(answer.mesh)});
   table.add_row({"frames", frames_in_words(sequence, figures)});
   table.add_row({"output", one_line(path) + ": " + written});
-  table.add_row({"distance", significant(sums.least) + " to " + significant(sums.most) + ", mean " +
-                                 significant(sums.mean)});
+  table.add_row({"distance", distances_in_words(sums)});
   table.add_row({"method", method_caption(*answer.method)});
   table.add_row({"time", frame_times_in_words(sequence, figures)});
   if (answer.error) {
@@ -221,7 +220,7 @@ Result<CommandOutput> run_sequence(const SolveArguments& arguments, const Progre
   const std::string& path = arguments.outputs.front();
   auto open = open_sink(path, *sequence, *type, outputs);
   if (!open) return open.error();
-  RowSums sums;
+  DistanceSummary sums;
   auto figures = solve_frames(
       *sequence,
       [&](std::int64_t k, const Answer* answer) {
@@ -239,10 +238,7 @@ Result<CommandOutput> run_sequence(const SolveArguments& arguments, const Progre
   CommandOutput out{"", figures->warnings, {}};
   const auto report = [&] {
     Json json = sequence_json(*sequence, *figures);
-    json["distance"] = {{"min", sums.least},
-                        {"max", sums.most},
-                        {"mean", sums.mean},
-                        {"unreached", sums.unreached}};
+    json["distance"] = distance_json(sums);
     return json;
   };
   out.note = accuracy_note(arguments.json, outputs, arguments.quiet, figures->answer->error);
