@@ -200,6 +200,12 @@ using Command = std::variant<
     command::SaveDistances, command::SaveMesh, command::SaveSession, command::SaveLog,
     command::SaveFigures, command::Undo, command::Redo, command::Quit>;
 
+/// Whether a command is of one of these kinds.
+template <class... Kinds>
+bool is_any_of(const Command& command) {
+  return (std::holds_alternative<Kinds>(command) || ...);
+}
+
 /// One line without its end. parse_command(to_text(c)) == c for every command that can be parsed.
 std::string to_text(const Command& command);
 
