@@ -6,8 +6,8 @@
 #include <utility>
 
 #include "app/c/handles.h"
-#include "app/session/grid_space.h"
 #include "app/session/length_space.h"
+#include "app/session/model.h"
 #include "app/session/settings.h"
 #include "geotherm/accuracy.h"
 #include "geotherm/backend.h"
@@ -65,15 +65,6 @@ app::ModelReading reading_of(const std::shared_ptr<Options>& options) {
   return options->state.reading;
 }
 
-/// The same space with what is drawn of it.
-Result<Model> model_of(std::shared_ptr<const app::Space> space, Result<TriangleMesh> drawn) {
-  if (!drawn) return drawn.error();
-  Model model;
-  model.mesh = std::make_shared<const TriangleMesh>(*std::move(drawn));
-  model.space = std::move(space);
-  return model;
-}
-
 template <std::size_t N>
 std::vector<std::array<Index, N>> grouped_by(const std::vector<Index>& numbers) {
   std::vector<std::array<Index, N>> out(numbers.size() / N);
@@ -89,13 +80,16 @@ Result<Model> build_triangles(const geotherm_shape& shape) {
   const auto marks = numbers_in(shape.values, 1, "mask");
   if (!marks) return marks.error();
   auto mesh = TriangleMesh::build(*std::move(positions), grouped_by<3>(*corners));
-  if (!mesh || marks->empty()) return model_of(nullptr, std::move(mesh));
+  if (!mesh) return mesh.error();
+  if (marks->empty()) return app::model_of(*std::move(mesh));
   Mask mask;
   const bool of_faces =
       std::ssize(*marks) == mesh->face_count() && std::ssize(*marks) != mesh->vertex_count();
   auto& list = of_faces ? mask.faces : mask.vertices;
   for (const double mark : *marks) list.push_back(mark != 0 ? 1 : 0);
-  return model_of(nullptr, masked(*mesh, mask));
+  auto left = masked(*mesh, mask);
+  if (!left) return left.error();
+  return app::model_of(*std::move(left));
 }
 
 Result<Model> build_polygons(const geotherm_shape& shape) {
@@ -111,13 +105,8 @@ Result<Model> build_polygons(const geotherm_shape& shape) {
     return bad_argument("starts must ascend from 0 to the number of corners, " +
                         std::to_string(corners->size()));
   }
-  auto space = app::PolygonSpace::build(
-      {*std::move(positions), {starts->begin(), starts->end()}, *std::move(corners)});
-  if (!space) return space.error();
-  Model model;
-  model.mesh = (*space)->triangles();
-  model.space = *std::move(space);
-  return model;
+  return app::model_of(
+      PolygonMesh{*std::move(positions), {starts->begin(), starts->end()}, *std::move(corners)});
 }
 
 Result<Model> build_tets(const geotherm_shape& shape) {
@@ -125,12 +114,9 @@ Result<Model> build_tets(const geotherm_shape& shape) {
   if (!positions) return positions.error();
   const auto corners = indices_in(shape.cells, 4, "tets");
   if (!corners) return corners.error();
-  auto mesh = TetMesh::build(*positions, grouped_by<4>(*corners));
+  auto mesh = TetMesh::build(*std::move(positions), grouped_by<4>(*corners));
   if (!mesh) return mesh.error();
-  auto space = app::TetSpace::build(*std::move(mesh));
-  if (!space) return space.error();
-  const std::vector<Face> border = (*space)->border().faces;
-  return model_of(*std::move(space), TriangleMesh::build(*std::move(positions), border));
+  return app::model_of(*std::move(mesh));
 }
 
 Result<Model> build_points(const geotherm_shape& shape, const Progress& progress) {
@@ -140,14 +126,7 @@ Result<Model> build_points(const geotherm_shape& shape, const Progress& progress
   if (!normals) return normals.error();
   const auto points = PointCloud::build(*std::move(positions), *std::move(normals));
   if (!points) return points.error();
-  auto surface = surface_of(*points, {}, progress);
-  if (!surface) return surface.error();
-  Model model;
-  for (std::string& note : surface->notes) model.notes.push_back({std::move(note)});
-  for (Warning& warning : surface->warnings) model.notes.push_back(std::move(warning));
-  model.mesh = std::make_shared<const TriangleMesh>(std::move(surface->mesh));
-  model.from_points = true;
-  return model;
+  return app::model_of(*points, progress);
 }
 
 Result<Model> build_grid(const geotherm_shape& shape) {
@@ -163,9 +142,7 @@ Result<Model> build_grid(const geotherm_shape& shape) {
   grid.speeds = *std::move(speeds);
   grid.three_axes = grid.size[2] > 1;
   if (auto fits = check_grid(grid); !fits) return fits.error();
-  auto space = std::make_shared<const app::GridSpace>(GridFile{std::move(grid), "speeds", {}});
-  auto drawn = space->drawn();
-  return model_of(std::move(space), std::move(drawn));
+  return app::model_of(GridFile{std::move(grid), "speeds", {}});
 }
 
 Result<Model> build_from_lengths(const geotherm_shape& shape) {
@@ -179,12 +156,9 @@ Result<Model> build_from_lengths(const geotherm_shape& shape) {
   }
   std::vector<std::array<double, 3>> opposite(lengths->size() / 3);
   for (std::size_t i = 0; i < lengths->size(); ++i) opposite[i / 3][i % 3] = (*lengths)[i];
-  auto space = app::LengthSpace::build(grouped_by<3>(*corners), opposite);
+  const auto space = app::LengthSpace::build(grouped_by<3>(*corners), opposite);
   if (!space) return space.error();
-  Model model;
-  model.mesh = (*space)->drawn();
-  model.space = *std::move(space);
-  return model;
+  return app::model_of(*space);
 }
 
 Result<Model> build(const geotherm_shape& shape, const Progress& progress) {

@@ -222,9 +222,7 @@ Result<CommandOutput> run_isolines(const IsolinesArguments& arguments, const Pro
   const auto written = write_line_files(arguments.files, picture_of_lines(*figures, lines), picture,
                                         progress, outputs, out);
   if (!written) return written.error();
-  if (figures->error)
-    out.note = accuracy_note(arguments.files.json, outputs, arguments.quiet, *figures->error,
-                             accuracy_line(*figures->error));
+  out.note = accuracy_note(arguments.files.json, outputs, arguments.quiet, figures->error);
   return finish_command(
       std::move(out), outputs, arguments.files.json,
       [&] { return isolines_json(*figures, *levels, lines); },

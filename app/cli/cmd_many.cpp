@@ -52,7 +52,7 @@ Result<void> check_each(const SolveArguments& arguments) {
 
 namespace {
 
-Json each_json(const ManySources& work, const ManyFigures& figures, const RowSums& sums,
+Json each_json(const ManySources& work, const ManyFigures& figures, const DistanceSummary& sums,
                NpyType type, const RowsFile& file) {
   Json json = many_json(work, figures);
   json["rows"] = work.sources.sets.size();
@@ -60,8 +60,7 @@ Json each_json(const ManySources& work, const ManyFigures& figures, const RowSum
   json["dtype"] = to_text(type);
   json["bytes"] = file.bytes();
   if (const auto entries = file.entries()) json["entries"] = *entries;
-  json["distance"] = {
-      {"min", sums.least}, {"max", sums.most}, {"mean", sums.mean}, {"unreached", sums.unreached}};
+  json["distance"] = distance_json(sums);
   return json;
 }
 
@@ -79,7 +78,7 @@ Result<CommandOutput> run_each(const SolveArguments& arguments, const Progress& 
   const std::string& path = arguments.outputs.front();
   work->reach.sparse = is_npz(path);
   const auto rows = static_cast<std::int64_t>(work->sources.sets.size());
-  RowSums sums;
+  DistanceSummary sums;
   auto file = RowsFile::open(path, *work, *type,
                              [&](std::size_t, std::span<const double> row) -> Result<void> {
                                sums.add(row);
@@ -106,13 +105,12 @@ Result<CommandOutput> run_each(const SolveArguments& arguments, const Progress& 
   if (sums.unreached > 0 && !work->reach.is_bounded())
     figures->warnings.push_back({unreached_note(*work, sums.unreached)});
   CommandOutput out{"", figures->warnings, {}};
-  out.note = sample_note(arguments, outputs, *figures);
+  out.note = accuracy_note(arguments.json, outputs, arguments.quiet, figures->error);
   const auto table = [&] {
     return many_table(*work, *figures,
                       {{"model", one_line(work->model.name)},
                        {"array", one_line(path) + ": " + size},
-                       {"distance", significant(sums.least) + " to " + significant(sums.most) +
-                                        ", mean " + significant(sums.mean)}});
+                       {"distance", distances_in_words(sums)}});
   };
   return finish_command(
       std::move(out), outputs, arguments.json,
@@ -352,7 +350,7 @@ Result<CommandOutput> run_pairs(const SolveArguments& arguments, const Progress&
     if (!written) return written.error();
   }
   if (kept) kept->discard();
-  out.note = sample_note(arguments, outputs, *figures);
+  out.note = accuracy_note(arguments.json, outputs, arguments.quiet, figures->error);
   return finish_command(
       std::move(out), outputs, arguments.json,
       [&] { return pairs_json(*work, *figures, pairs, apart, arguments.symmetric); },

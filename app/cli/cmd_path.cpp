@@ -182,7 +182,7 @@ Result<void> check_way(const SurfacePoint& start, const ReadyMethod& ready, Mode
   from.points.push_back(start);
   auto checked = solver.check_method(ready, {&from, 1}, {check}, part_of(progress, 0.9, 1.0));
   if (!checked) return checked.error();
-  AccuracyReport& report = checked->error.report;
+  AccuracyReport& report = checked->error;
   if (auto warning = accuracy_warning(report, accuracy_line(report))) {
     figures.warnings.push_back(*std::move(warning));
   }

@@ -279,9 +279,8 @@ Result<CommandOutput> run_render(const RenderArguments& typed, Drawing& drawing,
       return drawn.error();
     }
   }
-  if (figures.solve && figures.solve->error) {
-    out.note = accuracy_note(arguments.json, outputs, arguments.quiet, *figures.solve->error,
-                             accuracy_line(*figures.solve->error));
+  if (figures.solve) {
+    out.note = accuracy_note(arguments.json, outputs, arguments.quiet, figures.solve->error);
   }
   return finish_command(
       std::move(out), outputs, arguments.json, [&] { return picture_json(figures); },

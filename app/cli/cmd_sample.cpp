@@ -228,8 +228,8 @@ Result<SampleFigures> sample(Model model, const SettingArguments& arguments, con
     const auto done = relax(task, solver, *ready, part_of(progress, sampled, 1), figures);
     if (!done) return done.error();
   }
-  if (figures.error && !figures.error->report.measured && !figures.error->report.failed) {
-    figures.error->report.advice.clear();  // it names --check, which sample has not
+  if (figures.error && !figures.error->measured && !figures.error->failed) {
+    figures.error->advice.clear();  // it names --check, which sample has not
   }
   const auto add_warnings = [&figures](const std::vector<Warning>& more) {
     figures.warnings.insert(figures.warnings.end(), more.begin(), more.end());
@@ -357,10 +357,7 @@ Result<CommandOutput> run_sample(const SampleArguments& arguments, const Progres
         arguments.samples, [&] { return write_samples(arguments.samples, *figures, out.text); });
     if (!written) return written.error();
   }
-  if (figures->error) {
-    out.note = accuracy_note(arguments.json, outputs, arguments.quiet, figures->error->report,
-                             accuracy_line(*figures->error));
-  }
+  out.note = accuracy_note(arguments.json, outputs, arguments.quiet, figures->error);
   return finish_command(
       std::move(out), outputs, arguments.json, [&] { return sample_json(*figures); },
       [&] { return sample_table(*figures); });

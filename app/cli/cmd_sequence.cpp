@@ -141,15 +141,14 @@ Result<FrameSink> collection_sink(const std::string& path, const Frames& frames,
 }
 
 std::string sequence_table(const Sequence& sequence, const SequenceFigures& figures,
-                           const RowSums& sums, const std::string& path,
+                           const DistanceSummary& sums, const std::string& path,
                            const std::string& written) {
   const Answer& answer = *figures.answer;
   TextTable table({{"", TextTable::Align::kLeft}, {"", TextTable::Align::kLeft}});
   table.add_row({"model", one_line(sequence.model.name) + ": " + mesh_in_words(answer.mesh)});
   table.add_row({"frames", frames_in_words(sequence, figures)});
   table.add_row({"output", one_line(path) + ": " + written});
-  table.add_row({"distance", significant(sums.least) + " to " + significant(sums.most) + ", mean " +
-                                 significant(sums.mean)});
+  table.add_row({"distance", distances_in_words(sums)});
   table.add_row({"method", method_caption(*answer.method)});
   table.add_row({"time", frame_times_in_words(sequence, figures)});
   if (answer.error) {
@@ -180,7 +179,7 @@ Result<CommandOutput> run_sequence(const SolveArguments& arguments, const Progre
   auto sink = is_collection(path) ? collection_sink(path, sequence->frames, outputs)
                                   : row_sink(path, *sequence, *type, outputs);
   if (!sink) return sink.error();
-  RowSums sums;
+  DistanceSummary sums;
   auto figures = solve_frames(
       *sequence,
       [&](std::int64_t k, const Answer* answer) {
@@ -198,16 +197,10 @@ Result<CommandOutput> run_sequence(const SolveArguments& arguments, const Progre
   CommandOutput out{"", figures->warnings, {}};
   const auto report = [&] {
     Json json = sequence_json(*sequence, *figures);
-    json["distance"] = {{"min", sums.least},
-                        {"max", sums.most},
-                        {"mean", sums.mean},
-                        {"unreached", sums.unreached}};
+    json["distance"] = distance_json(sums);
     return json;
   };
-  if (figures->answer->error) {
-    out.note = accuracy_note(arguments.json, outputs, arguments.quiet, *figures->answer->error,
-                             accuracy_line(*figures->answer->error));
-  }
+  out.note = accuracy_note(arguments.json, outputs, arguments.quiet, figures->answer->error);
   return finish_command(std::move(out), outputs, arguments.json, report, [&] {
     const std::int64_t solved = sequence->frames.count() - std::ssize(figures->bad);
     return sequence_table(*sequence, *figures, sums, path,

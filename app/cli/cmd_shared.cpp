@@ -238,6 +238,7 @@ Json shared_json(const SharedWork& work, const SharedAnswer& answer, int ranks, 
   const auto of_heat = [&work](auto value) { return work.is_heat() ? Json(value) : Json(nullptr); };
   options["t"] = of_heat(answer.t);
   options["flips"] = answer.flips;
+  const DistanceSummary distance = {answer.least, answer.most, answer.mean, answer.unreached};
   Json json = {{"model",
                 {{"name", std::filesystem::path(work.path).stem().string()},
                  {"path", std::filesystem::absolute(work.path).string()},
@@ -248,11 +249,7 @@ Json shared_json(const SharedWork& work, const SharedAnswer& answer, int ranks, 
                  {"area", answer.area}}},
                {"options", options},
                {"sources", work.sources},
-               {"distance",
-                {{"min", answer.least},
-                 {"max", answer.most},
-                 {"mean", answer.mean},
-                 {"unreached", answer.unreached}}},
+               {"distance", distance_json(distance)},
                {"timing_ms",
                 {{"load", answer.read_ms},
                  {"share", answer.share_ms},
@@ -304,10 +301,9 @@ std::string shared_table(const SharedWork& work, const SharedAnswer& a, int rank
   table.add_row({"query", ms(a.timing.query) + (work.is_heat() ? steps : "")});
   const std::string factors = work.is_heat() ? milliseconds(a.factor_mb) + " MB factors, " : "";
   table.add_row({"memory", factors + milliseconds(peak_mb) + " MB peak, of the largest rank"});
-  table.add_row(
-      {"distance",
-       significant(a.least) + " to " + significant(a.most) + ", mean " + significant(a.mean) +
-           (a.unreached > 0 ? ", " + grouped(a.unreached) + " unreached" : std::string())});
+  table.add_row({"distance", distances_in_words({a.least, a.most, a.mean, a.unreached}) +
+                                 (a.unreached > 0 ? ", " + grouped(a.unreached) + " unreached"
+                                                  : std::string())});
   std::string gradient =
       "| |grad d| - 1 | = " + significant(a.quality.eikonal_error_mean, 2) + " on average";
   if (!work.is_heat()) {
@@ -376,8 +372,8 @@ Result<CommandOutput> run_shared(const SolveArguments& arguments, const Progress
   }
   if (answer->error) {
     if (auto poor = accuracy_warning(*answer->error, line)) out.warnings.push_back(*poor);
-    out.note = accuracy_note(arguments.json, work->outputs, arguments.quiet, *answer->error, line);
   }
+  out.note = accuracy_note(arguments.json, work->outputs, arguments.quiet, answer->error);
   return finish_command(
       std::move(out), work->outputs, arguments.json,
       [&] { return shared_json(*work, *answer, ranks->count(), peak_mb); },

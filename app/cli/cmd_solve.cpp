@@ -328,9 +328,7 @@ Result<CommandOutput> run_solve(const SolveArguments& arguments, const Drawing& 
     });
     if (!written) return written.error();
   }
-  if (figures->error)
-    out.note = accuracy_note(arguments.json, outputs, arguments.quiet, *figures->error,
-                             accuracy_line(*figures->error));
+  out.note = accuracy_note(arguments.json, outputs, arguments.quiet, figures->error);
   return finish_command(
       std::move(out), outputs, arguments.json, [&] { return solve_json(*figures); },
       [&] { return solve_table(*figures); });

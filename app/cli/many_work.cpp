@@ -2,7 +2,6 @@
 #include "app/cli/many_work.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstring>
 #include <optional>
 #include <type_traits>
@@ -26,40 +25,13 @@ constexpr std::size_t kMaxWarnings = 5;
 
 }  // namespace
 
-void RowSums::add(std::span<const double> row) {
-  constexpr double kSmaller = 0x1p-40;  // a sum could leave the range of doubles
-  RowSums of_row;
-  double sum = 0;
-  for (const double d : row) {
-    if (!std::isfinite(d)) {
-      ++of_row.unreached;
-      continue;
-    }
-    of_row.least = std::min(of_row.least, d);
-    of_row.most = std::max(of_row.most, d);
-    sum += d * kSmaller;
-  }
-  of_row.reached = static_cast<double>(row.size()) - static_cast<double>(of_row.unreached);
-  if (of_row.reached > 0) of_row.mean = sum / of_row.reached / kSmaller;
-  add(of_row);
-}
-
-void RowSums::add(const RowSums& more) {
-  least = std::min(least, more.least);
-  most = std::max(most, more.most);
-  const double both = reached + more.reached;
-  if (both > 0) mean += (more.mean - mean) * (more.reached / both);
-  reached = both;
-  unreached += more.unreached;
-}
-
-RowSums sums_of_all(const RowSums& mine, const Ranks& ranks) {
-  static_assert(std::is_trivially_copyable_v<RowSums>);
+DistanceSummary sums_of_all(const DistanceSummary& mine, const Ranks& ranks) {
+  static_assert(std::is_trivially_copyable_v<DistanceSummary>);
   std::string bytes(sizeof mine, '\0');
   std::memcpy(bytes.data(), &mine, sizeof mine);
-  RowSums all;
+  DistanceSummary all;
   for (const std::string& each : ranks.all_gather(bytes)) {
-    RowSums sums;
+    DistanceSummary sums;
     std::memcpy(&sums, each.data(), sizeof sums);
     all.add(sums);
   }
@@ -296,13 +268,6 @@ Result<ManyFigures> solve_many(const ManySources& work, const SolveArguments& ar
                                const TakeRow& take, const std::string& output,
                                const Progress& progress, const Announce& announce) {
   return work.ranks.agree_on(solve_share(work, arguments, take, output, progress, announce));
-}
-
-std::string sample_note(const SolveArguments& arguments, const Outputs& outputs,
-                        const ManyFigures& figures) {
-  if (!figures.error) return {};
-  return accuracy_note(arguments.json, outputs, arguments.quiet, figures.error->report,
-                       accuracy_line(*figures.error));
 }
 
 std::string unreached_note(const ManySources& work, std::int64_t unreached) {

@@ -64,18 +64,8 @@ struct ManyFigures {
   std::optional<SampleCheck> replaced;  ///< of the poor method that this one stands for
 };
 
-/// Sums and extremes over all rows of distances.
-struct RowSums {
-  double least = kUnreached, most = 0, mean = 0;  ///< of those that are finite
-  double reached = 0;                             ///< how many are
-  std::int64_t unreached = 0;
-
-  void add(std::span<const double> row);
-  void add(const RowSums& more);
-};
-
 /// The sums of all ranks, on each of them.
-RowSums sums_of_all(const RowSums& mine, const Ranks& ranks);
+DistanceSummary sums_of_all(const DistanceSummary& mine, const Ranks& ranks);
 
 /// Adds the warnings that are not there yet.
 void add_warnings(std::vector<Warning>& all, const std::vector<Warning>& more);
@@ -120,10 +110,6 @@ Result<void> check_room(const std::string& path, double bytes);
 Result<ManyFigures> solve_many(const ManySources& work, const SolveArguments& arguments,
                                const TakeRow& take, const std::string& output,
                                const Progress& progress, const Announce& announce);
-
-/// accuracy_note() of what was checked.
-std::string sample_note(const SolveArguments& arguments, const Outputs& outputs,
-                        const ManyFigures& figures);
 
 /// Says why so many distances are infinite.
 std::string unreached_note(const ManySources& work, std::int64_t unreached);

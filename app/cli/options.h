@@ -124,6 +124,12 @@ Result<void> refuse_better(const CheckSettings& settings, const std::string& wha
 /// accuracy_line().
 std::string accuracy_note(const std::string& json, const Outputs& outputs, bool quiet,
                           const AccuracyReport& report, const Warning& line);
+/// The same of what may have been checked, by itself or by a sample.
+template <class Report>
+std::string accuracy_note(const std::string& json, const Outputs& outputs, bool quiet,
+                          const Report& error) {
+  return error ? accuracy_note(json, outputs, quiet, *error, accuracy_line(*error)) : "";
+}
 
 /// Where the report of a command goes; empty: there is none. Errors: those of Outputs::expect().
 Result<void> expect_report(const std::string& path, Outputs& outputs,

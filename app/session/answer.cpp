@@ -9,21 +9,40 @@
 
 namespace geotherm::app {
 
-DistanceSummary summarize(std::span<const double> distances) {
-  DistanceSummary summary;
-  summary.min = kUnreached;
-  double mean = 0;
-  double reached = 0;
-  for (const double d : distances) {
+void DistanceSummary::add(std::span<const double> row) {
+  constexpr double kSmaller = 0x1p-40;  // where the sum leaves the range of doubles
+  DistanceSummary of_row;
+  double sum = 0, smaller_sum = 0;
+  for (const double d : row) {
     if (!std::isfinite(d)) {
-      ++summary.unreached;
+      ++of_row.unreached;
       continue;
     }
-    summary.min = std::min(summary.min, d);
-    summary.max = std::max(summary.max, d);
-    mean += (d - mean) / ++reached;  // a sum could leave the range of doubles
+    of_row.min = std::min(of_row.min, d);
+    of_row.max = std::max(of_row.max, d);
+    sum += d;
+    smaller_sum += d * kSmaller;
   }
-  summary.mean = mean;
+  of_row.reached = static_cast<double>(row.size()) - static_cast<double>(of_row.unreached);
+  if (of_row.reached > 0) {
+    of_row.mean =
+        std::isfinite(sum) ? sum / of_row.reached : smaller_sum / of_row.reached / kSmaller;
+  }
+  add(of_row);
+}
+
+void DistanceSummary::add(const DistanceSummary& more) {
+  min = std::min(min, more.min);
+  max = std::max(max, more.max);
+  const double both = reached + more.reached;
+  if (both > 0) mean += (more.mean - mean) * (more.reached / both);
+  reached = both;
+  unreached += more.unreached;
+}
+
+DistanceSummary summarize(std::span<const double> distances) {
+  DistanceSummary summary;
+  summary.add(distances);
   return summary;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <span>
@@ -14,9 +15,14 @@
 
 namespace geotherm::app {
 
+/// Extremes and mean of distances from one source set or from many.
 struct DistanceSummary {
-  double min = 0, max = 0, mean = 0;  ///< over the vertices that are reached, model units
-  Index unreached = 0;
+  double min = kUnreached, max = 0, mean = 0;  ///< of those that are finite, model units
+  std::int64_t unreached = 0;                  ///< how many are not
+  double reached = 0;                          ///< how many are
+
+  void add(std::span<const double> row);  ///< those from one more source set
+  void add(const DistanceSummary& more);  ///< those of other source sets
 };
 DistanceSummary summarize(std::span<const double> distances);
 

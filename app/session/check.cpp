@@ -94,12 +94,12 @@ Warning accuracy_line(const AccuracyReport& report) {
 }
 
 Warning accuracy_line(const SampleCheck& check) {
-  const AccuracyReport& report = check.report;
+  const AccuracyReport& report = check;
   if (!report.measured) return accuracy_line(report);
   return {"on " + grouped(static_cast<std::int64_t>(report.sets)) + " of " +
               counted(static_cast<std::int64_t>(check.of), "source", "sources") + ": " +
-              figures_in_words(report.figures) + " from source " + std::to_string(check.worst) +
-              graded(report),
+              figures_in_words(report.figures) + " from source " +
+              std::to_string(report.worst_set) + graded(report),
           report.advice};
 }
 

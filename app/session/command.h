@@ -22,185 +22,138 @@ namespace command {
 /// Opens a model; sources that only fit the old one become `random:1`.
 struct Open {  // open MODEL
   std::string model;
-  bool operator==(const Open&) const = default;
 };
 /// Back to what the program starts with: the first line of a saved session. A model stays open
 /// until another is.
-struct Reset {  // reset
-  bool operator==(const Reset&) const = default;
-};
+struct Reset {};  // reset
 /// Runs the commands of a file.
 struct Run {  // run FILE
   std::string path;
-  bool operator==(const Run&) const = default;
 };
 /// Sets an option of the method or the picture (settings.h).
 struct Set {  // NAME VALUE: backend cg, time-factor 2, view contours, range 0:2, bar off
   std::string name, value;
-  bool operator==(const Set&) const = default;
 };
 
 /// Replaces all sources.
 struct SetSources {  // source set SPEC...
   std::vector<SourceSpec> sources;
-  bool operator==(const SetSources&) const = default;
 };
 struct AddSources {  // source add SPEC...
   std::vector<SourceSpec> sources;
-  bool operator==(const AddSources&) const = default;
 };
 /// Replaces entry `index` of ViewerState::sources: a source that is dragged.
 struct MoveSource {  // source move INDEX SPEC
   int index = 0;
   SourceSpec source;
-  bool operator==(const MoveSource&) const = default;
 };
 struct RemoveSource {  // source remove INDEX
   int index = 0;
-  bool operator==(const RemoveSource&) const = default;
 };
 /// Adds vertices, or points in faces, to the end of the last source, a curve of such: a brush that
 /// goes on.
 struct ExtendCurve {  // source extend V,V,... or source extend face:ID:b0:b1:b2,...
   std::vector<Index> vertices;
   std::vector<FacePoint> points = {};
-  bool operator==(const ExtendCurve&) const = default;
 };
-struct ClearSources {  // source clear
-  bool operator==(const ClearSources&) const = default;
-};
+struct ClearSources {};  // source clear
 /// One more random source, one fewer (the last source where there is no random one), or as many as
 /// there are at new random places.
-struct MoreSources {  // source more
-  bool operator==(const MoreSources&) const = default;
-};
-struct FewerSources {  // source fewer
-  bool operator==(const FewerSources&) const = default;
-};
-struct ShuffleSources {  // source shuffle
-  bool operator==(const ShuffleSources&) const = default;
-};
+struct MoreSources {};     // source more
+struct FewerSources {};    // source fewer
+struct ShuffleSources {};  // source shuffle
 
 /// Begins a stroke of the sculpting brush.
 struct Sculpt {  // sculpt pull|push|smooth RADIUS STRENGTH POINT...
   Stroke stroke;
-  bool operator==(const Sculpt&) const = default;
 };
 /// Goes on with the last one.
 struct ExtendStroke {  // sculpt extend POINT...
   std::vector<FacePoint> points;
-  bool operator==(const ExtendStroke&) const = default;
 };
 
 /// A surface that moves: Frames::open()'s path; empty: none, the model as its file has it. Begins
 /// at frame 0.
 struct ShowSequence {  // sequence PATH, sequence none
   std::string path;
-  bool operator==(const ShowSequence&) const = default;
 };
 struct ShowFrame {  // frame INDEX
   int index = 0;
-  bool operator==(const ShowFrame&) const = default;
 };
 /// The window shows a frame after the other, each by `frame`.
 struct Play {  // play on|off
   bool on = false;
-  bool operator==(const Play&) const = default;
 };
 /// Whether the first frame follows the last.
 struct Loop {  // loop on|off
   bool on = true;
-  bool operator==(const Loop&) const = default;
 };
 
 /// Degrees; the elevation stays within -90 to 90.
 struct Orbit {  // camera orbit AZIMUTH ELEVATION
   double azimuth = 0, elevation = 0;
-  bool operator==(const Orbit&) const = default;
 };
 /// Zooms by a factor and keeps what lies at this place where it is. right, up: from the middle of
 /// the picture, in picture heights.
 struct Zoom {  // camera zoom FACTOR [RIGHT UP]
   double factor = 1, right = 0, up = 0;
-  bool operator==(const Zoom&) const = default;
 };
 struct Pan {  // camera pan RIGHT UP
   double right = 0, up = 0;
-  bool operator==(const Pan&) const = default;
 };
 /// What the camera turns about and shows in the middle, model units.
 struct Centre {  // camera centre X Y Z
   double x = 0, y = 0, z = 0;
-  bool operator==(const Centre&) const = default;
 };
 /// Where the camera is, all at once.
 struct Place {  // camera place AZIMUTH ELEVATION ZOOM RIGHT UP
   double azimuth = 0, elevation = 0, zoom = 1, right = 0, up = 0;
-  bool operator==(const Place&) const = default;
 };
 /// The whole model in the middle; the direction stays.
-struct Frame {  // camera frame
-  bool operator==(const Frame&) const = default;
-};
-struct Rotate {  // rotate on|off
+struct Frame {};  // camera frame
+struct Rotate {   // rotate on|off
   bool on = false;
-  bool operator==(const Rotate&) const = default;
 };
 
 /// Keeps the present settings as B.
-struct Keep {  // keep
-  bool operator==(const Keep&) const = default;
-};
-struct Forget {  // forget
-  bool operator==(const Forget&) const = default;
-};
+struct Keep {};    // keep
+struct Forget {};  // forget
 /// A and B change places.
-struct Swap {  // swap
-  bool operator==(const Swap&) const = default;
-};
-struct Show {  // show a|b|difference
+struct Swap {};  // swap
+struct Show {    // show a|b|difference
   Shown shown = Shown::kA;
-  bool operator==(const Show&) const = default;
 };
 /// From A to B, from anything else to A.
-struct Flip {  // flip
-  bool operator==(const Flip&) const = default;
-};
+struct Flip {};  // flip
 
 /// Shows the figures of a point; none: no longer.
 struct Pick {  // pick face:ID:b0:b1:b2, pick none
   std::optional<FacePoint> point;
-  bool operator==(const Pick&) const = default;
 };
 
 /// Draws the paths that lead from a point to the sources; none: no longer.
 struct Target {                     // target SPEC, target none
   std::optional<SourceSpec> point;  ///< is_single_point()
-  bool operator==(const Target&) const = default;
 };
 
 /// Shows the centre of the sources and the shortest paths from there; none: no longer.
 struct ShowCentre {  // source centre mean|median|none
   std::optional<CentreKind> kind;
-  bool operator==(const ShowCentre&) const = default;
 };
 
 /// Shows values, vectors or a log map of the vertices from a file in place of distances; empty: no
 /// longer.
 struct ShowField {  // field FILE, field none
   std::string path;
-  bool operator==(const ShowField&) const = default;
 };
 /// Distances no farther than that are asked for.
 struct MaxDistance {         // max-distance R, max-distance none
   double most = kUnreached;  ///< > 0, model units
-  bool operator==(const MaxDistance&) const = default;
 };
 
 /// Runs the present work through several backends.
 struct Compare {  // compare [all|NAME,NAME...]
   std::string backends = "all";
-  bool operator==(const Compare&) const = default;
 };
 
 /// Writes a .png, .pdf or .svg of what is shown; no size: as large as it is shown.
@@ -208,42 +161,30 @@ struct SavePicture {  // save picture FILE [SIZE] [panels]
   std::string path;
   std::optional<PictureSize> size = {};
   bool panels = false;
-  bool operator==(const SavePicture&) const = default;
 };
 struct SaveDistances {  // save distances FILE
   std::string path;
-  bool operator==(const SaveDistances&) const = default;
 };
 /// The mesh that is shown: what was sculpted, where it was.
 struct SaveMesh {  // save mesh FILE
   std::string path;
-  bool operator==(const SaveMesh&) const = default;
 };
 /// The commands that lead to the present state.
 struct SaveSession {  // save session FILE
   std::string path;
-  bool operator==(const SaveSession&) const = default;
 };
 /// All commands since the start.
 struct SaveLog {  // save log FILE
   std::string path;
-  bool operator==(const SaveLog&) const = default;
 };
 /// What `solve --json` and `compare --json` write, of what is shown.
 struct SaveFigures {  // save figures FILE
   std::string path;
-  bool operator==(const SaveFigures&) const = default;
 };
 
-struct Undo {  // undo
-  bool operator==(const Undo&) const = default;
-};
-struct Redo {  // redo
-  bool operator==(const Redo&) const = default;
-};
-struct Quit {  // quit
-  bool operator==(const Quit&) const = default;
-};
+struct Undo {};  // undo
+struct Redo {};  // redo
+struct Quit {};  // quit
 
 }  // namespace command
 
@@ -259,8 +200,19 @@ using Command = std::variant<
     command::SaveDistances, command::SaveMesh, command::SaveSession, command::SaveLog,
     command::SaveFigures, command::Undo, command::Redo, command::Quit>;
 
+/// Whether a command is of one of these kinds.
+template <class... Kinds>
+bool is_any_of(const Command& command) {
+  return (std::holds_alternative<Kinds>(command) || ...);
+}
+
 /// One line without its end. parse_command(to_text(c)) == c for every command that can be parsed.
 std::string to_text(const Command& command);
+
+namespace command {
+/// Whether two commands have the same text.
+inline bool operator==(const Command& a, const Command& b) { return to_text(a) == to_text(b); }
+}  // namespace command
 
 /// Words are separated by blanks; one with blanks, quotes or # stands in double quotes, with \" and
 /// \\ inside. Errors: kBadInput, "column N: ..." with what was expected.

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <optional>
 #include <utility>
@@ -15,200 +14,181 @@
 #include "solver/core/text.h"
 
 namespace geotherm::app {
+namespace command {
 namespace {
 
-/// A first word, or a first and a second one, and what follows it.
+/// A command: a first word, or a first and a second one, and what follows it.
 struct Form {
   std::string_view name;       ///< "camera orbit"
   std::string_view arguments;  ///< "AZIMUTH ELEVATION"
   std::size_t least, most;     ///< number of arguments
   Result<Command> (*read)(WordReader& reader);
+  /// The arguments, a blank before each; none: the command is not of this form.
+  std::optional<std::string> (*write)(const Command& command);
 };
 
-template <class Kind>
-Result<Command> plain(WordReader&) {
-  return Command(Kind{});
+constexpr std::size_t kAny = 1'000'000;
+
+std::string argument_text(double number) { return " " + number_text(number); }
+std::string argument_text(int index) { return " " + std::to_string(index); }
+std::string argument_text(bool on) { return on ? " on" : " off"; }
+std::string argument_text(const std::string& text) { return " " + command_word(text); }
+std::string argument_text(const SourceSpec& source) { return " " + to_text(source); }
+std::string argument_text(const FacePoint& point) { return argument_text(SourceSpec(point)); }
+
+template <Named Enum>
+std::string argument_text(Enum value) {
+  return " " + geotherm::to_text(value);
 }
 
-template <class Kind>
-Result<Command> with_text(WordReader& reader) {
-  return Command(Kind{reader.next()});
+template <class Value>
+std::string argument_text(const std::optional<Value>& value) {
+  return argument_text(*value);
 }
 
-template <class Kind>
-Result<Command> with_list(WordReader& reader) {
+template <class Value>
+std::string argument_text(const std::vector<Value>& all) {
+  std::string text;
+  for (const Value& value : all) text += argument_text(value);
+  return text;
+}
+
+template <class Kind, class Value>
+Kind kind_of(Value Kind::*member);  // for its type alone
+
+template <class Kind, auto... kMembers>
+Result<Command> read_members(WordReader& reader) {
   Kind kind;
-  while (!reader.at_end()) {
-    auto source = reader.source();
-    if (!source) return source.error();
-    kind.sources.push_back(*std::move(source));
-  }
-  return Command(kind);
+  Result<void> taken;
+  if (!((taken = reader.take(kind.*kMembers)) && ...)) return taken.error();
+  return Command(std::move(kind));
 }
 
-/// As many numbers as there are words.
-Result<std::vector<double>> all_numbers(WordReader& reader) {
-  std::vector<double> numbers;
-  while (!reader.at_end()) {
-    const auto number = reader.number(-kLargestNumber, kLargestNumber);
-    if (!number) return number.error();
-    numbers.push_back(*number);
-  }
-  return numbers;
+template <class Kind, auto... kMembers>
+std::optional<std::string> write_members(const Command& command) {
+  const auto* const kind = std::get_if<Kind>(&command);
+  if (kind == nullptr) return std::nullopt;
+  return (std::string() + ... + argument_text(kind->*kMembers));
 }
 
-Result<Command> read_move(WordReader& reader) {
-  const auto index = reader.whole();
-  if (!index) return index.error();
-  const auto source = reader.source();
-  if (!source) return source.error();
-  return Command(command::MoveSource{*index, *source});
+/// Without arguments.
+template <class Kind>
+constexpr Form form_of(std::string_view name) {
+  return {name, "", 0, 0, read_members<Kind>, write_members<Kind>};
 }
 
-Result<Command> read_remove(WordReader& reader) {
-  const auto index = reader.whole();
-  if (!index) return index.error();
-  return Command(command::RemoveSource{*index});
+/// An argument for each member; a list, the last one, takes all words that are left.
+template <auto kFirst, auto... kMore>
+constexpr Form form_of(std::string_view name, std::string_view arguments) {
+  using Kind = decltype(kind_of(kFirst));
+  const std::size_t least = 1 + sizeof...(kMore);
+  const std::size_t most = arguments.ends_with("...") ? kAny : least;
+  return {name,
+          arguments,
+          least,
+          most,
+          read_members<Kind, kFirst, kMore...>,
+          write_members<Kind, kFirst, kMore...>};
+}
+
+/// One argument; `none` is what the member is at first.
+template <auto kMember, auto kRead = read_members<decltype(kind_of(kMember)), kMember>>
+constexpr Form form_or_none(std::string_view name, std::string_view arguments) {
+  using Kind = decltype(kind_of(kMember));
+  Form form = form_of<kMember>(name, arguments);
+  form.read = [](WordReader& reader) -> Result<Command> {
+    if (reader.peek() == "none") return Command(Kind());
+    return kRead(reader);
+  };
+  form.write = [](const Command& command) -> std::optional<std::string> {
+    const auto* const kind = std::get_if<Kind>(&command);
+    if (kind != nullptr && kind->*kMember == Kind().*kMember) return " none";
+    return write_members<Kind, kMember>(command);
+  };
+  return form;
 }
 
 Result<Command> read_extend(WordReader& reader) {
   if (reader.peek().starts_with("face:")) {
     auto curve = parse_source("curve:" + reader.next());
     if (!curve) return reader.blame_last(curve.error());
-    return Command(command::ExtendCurve{{}, std::get<SurfaceCurve>(*std::move(curve)).points});
+    return Command(ExtendCurve{{}, std::get<SurfaceCurve>(*std::move(curve)).points});
   }
   const auto vertices = reader.vertices();
   if (!vertices) return vertices.error();
-  return Command(command::ExtendCurve{*vertices});
+  return Command(ExtendCurve{*vertices});
 }
 
-/// As many points as there are words.
-Result<std::vector<FacePoint>> all_points(WordReader& reader) {
-  std::vector<FacePoint> points;
-  while (!reader.at_end()) {
-    const auto point = reader.face_point();
-    if (!point) return reader.fail("a point in a face, face:ID:b0:b1:b2");
-    if (point->offset != 0) {
-      return reader.blame_last({ErrorCode::kBadInput, "a touch has no offset"});
-    }
-    points.push_back(*point);
-  }
-  return points;
+std::optional<std::string> write_extend(const Command& command) {
+  const auto* const curve = std::get_if<ExtendCurve>(&command);
+  if (curve == nullptr) return std::nullopt;
+  std::vector<std::string> parts;
+  for (const Index v : curve->vertices) parts.push_back(std::to_string(v));
+  for (const FacePoint& point : curve->points) parts.push_back(to_text(SourceSpec(point)));
+  return argument_text(joined(parts, ","));
 }
 
 template <SculptTool kTool>
 Result<Command> read_sculpt(WordReader& reader) {
-  const auto radius = reader.number(std::numeric_limits<double>::min(), kLargestNumber);
-  if (!radius) return radius.error();
-  const auto strength = reader.number(0, 1);
-  if (!strength) return strength.error();
-  auto points = all_points(reader);
-  if (!points) return points.error();
-  return Command(command::Sculpt{{kTool, *radius, *strength, *std::move(points)}});
+  Stroke stroke;
+  stroke.tool = kTool;
+  constexpr double kAboveZero = std::numeric_limits<double>::min();
+  if (auto taken = reader.take(stroke.radius, kAboveZero); !taken) return taken.error();
+  if (auto taken = reader.take(stroke.strength, 0, 1); !taken) return taken.error();
+  if (auto taken = reader.take(stroke.points); !taken) return taken.error();
+  return Command(Sculpt{std::move(stroke)});
 }
 
-Result<Command> read_extend_stroke(WordReader& reader) {
-  auto points = all_points(reader);
-  if (!points) return points.error();
-  return Command(command::ExtendStroke{*std::move(points)});
-}
-
-template <class Kind>
-Result<Command> with_path(WordReader& reader) {
-  const std::string& path = reader.next();
-  return Command(Kind{path == "none" ? "" : path});
-}
-
-Result<Command> read_frame(WordReader& reader) {
-  const auto index = reader.whole("the number of a frame, from 0");
-  if (!index) return index.error();
-  return Command(command::ShowFrame{*index});
-}
-
-template <class Kind>
-Result<Command> read_switch(WordReader& reader) {
-  const auto on = reader.one_of({"on", "off"});
-  if (!on) return on.error();
-  return Command(Kind{*on == "on"});
-}
-
-template <class Kind, std::size_t... k>
-Result<Command> of_numbers(WordReader& reader, std::index_sequence<k...>) {
-  const auto n = all_numbers(reader);
-  if (!n) return n.error();
-  return Command(Kind{(*n)[k]...});
-}
-
-template <class Kind, std::size_t kCount>
-Result<Command> with_numbers(WordReader& reader) {
-  return of_numbers<Kind>(reader, std::make_index_sequence<kCount>());
+template <SculptTool kTool>
+std::optional<std::string> write_sculpt(const Command& command) {
+  const auto* const sculpt = std::get_if<Sculpt>(&command);
+  if (sculpt == nullptr || sculpt->stroke.tool != kTool) return std::nullopt;
+  const Stroke& stroke = sculpt->stroke;
+  return argument_text(stroke.radius) + argument_text(stroke.strength) +
+         argument_text(stroke.points);
 }
 
 Result<Command> read_zoom(WordReader& reader) {
-  const auto factor = reader.number(kMinZoom / kMaxZoom, kMaxZoom / kMinZoom);
+  Zoom zoom;
+  auto factor = reader.take(zoom.factor, kMinZoom / kMaxZoom, kMaxZoom / kMinZoom);
   if (!factor) return factor.error();
+  if (reader.at_end()) return Command(zoom);
   if (reader.left() == 1) return reader.fail("both RIGHT and UP, or neither");
-  const auto n = all_numbers(reader);
-  if (!n) return n.error();
-  return Command(n->empty() ? command::Zoom{*factor} : command::Zoom{*factor, (*n)[0], (*n)[1]});
+  if (auto taken = reader.take(zoom.right); !taken) return taken.error();
+  if (auto taken = reader.take(zoom.up); !taken) return taken.error();
+  return Command(zoom);
+}
+
+std::optional<std::string> write_zoom(const Command& command) {
+  const auto* const zoom = std::get_if<Zoom>(&command);
+  if (zoom == nullptr) return std::nullopt;
+  const bool in_middle = zoom->right == 0 && zoom->up == 0;
+  return argument_text(zoom->factor) +
+         (in_middle ? "" : argument_text(zoom->right) + argument_text(zoom->up));
 }
 
 Result<Command> read_place(WordReader& reader) {
-  const auto azimuth = reader.number(-kMaxAngle, kMaxAngle);
-  if (!azimuth) return azimuth.error();
-  const auto elevation = reader.number(-90, 90);
-  if (!elevation) return elevation.error();
-  const auto zoom = reader.number(kMinZoom, kMaxZoom);
-  if (!zoom) return zoom.error();
-  const auto right = reader.number(-kMaxPan, kMaxPan);
-  if (!right) return right.error();
-  const auto up = reader.number(-kMaxPan, kMaxPan);
-  if (!up) return up.error();
-  return Command(command::Place{*azimuth, *elevation, *zoom, *right, *up});
-}
-
-Result<Command> read_show(WordReader& reader) {
-  const auto shown = reader.one_of(all_names<Shown>());
-  if (!shown) return shown.error();
-  return Command(command::Show{*parse<Shown>(*shown)});
-}
-
-Result<Command> read_pick(WordReader& reader) {
-  if (reader.peek() == "none") return Command(command::Pick{});
-  const auto point = reader.face_point();
-  if (!point) return point.error();
-  return Command(command::Pick{*point});
-}
-
-Result<Command> read_target(WordReader& reader) {
-  if (reader.peek() == "none") return Command(command::Target{});
-  const auto point = reader.single_point();
-  if (!point) return point.error();
-  return Command(command::Target{*point});
-}
-
-Result<Command> read_source_centre(WordReader& reader) {
-  std::vector<std::string> kinds = all_names<CentreKind>();
-  kinds.emplace_back("none");
-  const auto kind = reader.one_of(kinds);
-  if (!kind) return kind.error();
-  if (*kind == "none") return Command(command::ShowCentre{});
-  return Command(command::ShowCentre{*parse<CentreKind>(*kind)});
+  Place place;
+  if (auto taken = reader.take(place.azimuth, -kMaxAngle, kMaxAngle); !taken) return taken.error();
+  if (auto taken = reader.take(place.elevation, -90, 90); !taken) return taken.error();
+  if (auto taken = reader.take(place.zoom, kMinZoom, kMaxZoom); !taken) return taken.error();
+  if (auto taken = reader.take(place.right, -kMaxPan, kMaxPan); !taken) return taken.error();
+  if (auto taken = reader.take(place.up, -kMaxPan, kMaxPan); !taken) return taken.error();
+  return Command(place);
 }
 
 Result<Command> read_max_distance(WordReader& reader) {
-  if (reader.peek() == "none") return Command(command::MaxDistance{});
   const auto most = parse_max_distance(reader.next());
   if (!most) return reader.blame_last(most.error());
-  return Command(command::MaxDistance{*most});
+  return Command(MaxDistance{*most});
 }
 
 Result<Command> read_compare(WordReader& reader) {
-  return Command(reader.at_end() ? command::Compare{} : command::Compare{reader.next()});
+  return Command(reader.at_end() ? Compare{} : Compare{reader.next()});
 }
 
 Result<Command> read_save_picture(WordReader& reader) {
-  command::SavePicture save{reader.next()};
+  SavePicture save{reader.next()};
   if (!reader.at_end() && reader.peek() != "panels") {
     const auto size = parse_size(reader.next());
     if (!size) {
@@ -225,57 +205,77 @@ Result<Command> read_save_picture(WordReader& reader) {
   return Command(save);
 }
 
-constexpr std::size_t kAny = 1'000'000;
+std::optional<std::string> write_save_picture(const Command& command) {
+  const auto* const save = std::get_if<SavePicture>(&command);
+  if (save == nullptr) return std::nullopt;
+  return argument_text(save->path) + (save->size ? " " + size_text(*save->size) : "") +
+         (save->panels ? " panels" : "");
+}
 
-const Form kForms[] = {
-    {"open", "MODEL", 1, 1, with_text<command::Open>},
-    {"reset", "", 0, 0, plain<command::Reset>},
-    {"run", "FILE", 1, 1, with_text<command::Run>},
-    {"source set", "SOURCE...", 1, kAny, with_list<command::SetSources>},
-    {"source add", "SOURCE...", 1, kAny, with_list<command::AddSources>},
-    {"source move", "INDEX SOURCE", 2, 2, read_move},
-    {"source remove", "INDEX", 1, 1, read_remove},
-    {"source extend", "V,V,...|face:ID:b0:b1:b2,...", 1, 1, read_extend},
-    {"source clear", "", 0, 0, plain<command::ClearSources>},
-    {"source more", "", 0, 0, plain<command::MoreSources>},
-    {"source fewer", "", 0, 0, plain<command::FewerSources>},
-    {"source shuffle", "", 0, 0, plain<command::ShuffleSources>},
-    {"source centre", "mean|median|none", 1, 1, read_source_centre},
-    {"sculpt pull", "RADIUS STRENGTH POINT...", 3, kAny, read_sculpt<SculptTool::kPull>},
-    {"sculpt push", "RADIUS STRENGTH POINT...", 3, kAny, read_sculpt<SculptTool::kPush>},
-    {"sculpt smooth", "RADIUS STRENGTH POINT...", 3, kAny, read_sculpt<SculptTool::kSmooth>},
-    {"sculpt extend", "POINT...", 1, kAny, read_extend_stroke},
-    {"sequence", "FRAMES|none", 1, 1, with_path<command::ShowSequence>},
-    {"frame", "INDEX", 1, 1, read_frame},
-    {"play", "on|off", 1, 1, read_switch<command::Play>},
-    {"loop", "on|off", 1, 1, read_switch<command::Loop>},
-    {"camera orbit", "AZIMUTH ELEVATION", 2, 2, with_numbers<command::Orbit, 2>},
-    {"camera zoom", "FACTOR [RIGHT UP]", 1, 3, read_zoom},
-    {"camera pan", "RIGHT UP", 2, 2, with_numbers<command::Pan, 2>},
-    {"camera centre", "X Y Z", 3, 3, with_numbers<command::Centre, 3>},
-    {"camera place", "AZIMUTH ELEVATION ZOOM RIGHT UP", 5, 5, read_place},
-    {"camera frame", "", 0, 0, plain<command::Frame>},
-    {"rotate", "on|off", 1, 1, read_switch<command::Rotate>},
-    {"keep", "", 0, 0, plain<command::Keep>},
-    {"forget", "", 0, 0, plain<command::Forget>},
-    {"swap", "", 0, 0, plain<command::Swap>},
-    {"show", "a|b|difference", 1, 1, read_show},
-    {"flip", "", 0, 0, plain<command::Flip>},
-    {"pick", "face:ID:b0:b1:b2|none", 1, 1, read_pick},
-    {"target", "POINT|none", 1, 1, read_target},
-    {"field", "FILE|none", 1, 1, with_path<command::ShowField>},
-    {"max-distance", "R|none", 1, 1, read_max_distance},
-    {"compare", "[all|NAME,NAME...]", 0, 1, read_compare},
-    {"save picture", "FILE [SIZE] [panels]", 1, 3, read_save_picture},
-    {"save distances", "FILE", 1, 1, with_text<command::SaveDistances>},
-    {"save mesh", "FILE", 1, 1, with_text<command::SaveMesh>},
-    {"save session", "FILE", 1, 1, with_text<command::SaveSession>},
-    {"save log", "FILE", 1, 1, with_text<command::SaveLog>},
-    {"save figures", "FILE", 1, 1, with_text<command::SaveFigures>},
-    {"undo", "", 0, 0, plain<command::Undo>},
-    {"redo", "", 0, 0, plain<command::Redo>},
-    {"quit", "", 0, 0, plain<command::Quit>},
+constexpr std::string_view kStroke = "RADIUS STRENGTH POINT...";
+
+using enum SculptTool;
+
+constexpr Form kForms[] = {
+    form_of<&Open::model>("open", "MODEL"),
+    form_of<Reset>("reset"),
+    form_of<&Run::path>("run", "FILE"),
+    form_of<&SetSources::sources>("source set", "SOURCE..."),
+    form_of<&AddSources::sources>("source add", "SOURCE..."),
+    form_of<&MoveSource::index, &MoveSource::source>("source move", "INDEX SOURCE"),
+    form_of<&RemoveSource::index>("source remove", "INDEX"),
+    {"source extend", "V,V,...|face:ID:b0:b1:b2,...", 1, 1, read_extend, write_extend},
+    form_of<ClearSources>("source clear"),
+    form_of<MoreSources>("source more"),
+    form_of<FewerSources>("source fewer"),
+    form_of<ShuffleSources>("source shuffle"),
+    form_or_none<&ShowCentre::kind>("source centre", "mean|median|none"),
+    {"sculpt pull", kStroke, 3, kAny, read_sculpt<kPull>, write_sculpt<kPull>},
+    {"sculpt push", kStroke, 3, kAny, read_sculpt<kPush>, write_sculpt<kPush>},
+    {"sculpt smooth", kStroke, 3, kAny, read_sculpt<kSmooth>, write_sculpt<kSmooth>},
+    form_of<&ExtendStroke::points>("sculpt extend", "POINT..."),
+    form_or_none<&ShowSequence::path>("sequence", "FRAMES|none"),
+    form_of<&ShowFrame::index>("frame", "INDEX"),
+    form_of<&Play::on>("play", "on|off"),
+    form_of<&Loop::on>("loop", "on|off"),
+    form_of<&Orbit::azimuth, &Orbit::elevation>("camera orbit", "AZIMUTH ELEVATION"),
+    {"camera zoom", "FACTOR [RIGHT UP]", 1, 3, read_zoom, write_zoom},
+    form_of<&Pan::right, &Pan::up>("camera pan", "RIGHT UP"),
+    form_of<&Centre::x, &Centre::y, &Centre::z>("camera centre", "X Y Z"),
+    {"camera place", "AZIMUTH ELEVATION ZOOM RIGHT UP", 5, 5, read_place,
+     write_members<Place, &Place::azimuth, &Place::elevation, &Place::zoom, &Place::right,
+                   &Place::up>},
+    form_of<Frame>("camera frame"),
+    form_of<&Rotate::on>("rotate", "on|off"),
+    form_of<Keep>("keep"),
+    form_of<Forget>("forget"),
+    form_of<Swap>("swap"),
+    form_of<&Show::shown>("show", "a|b|difference"),
+    form_of<Flip>("flip"),
+    form_or_none<&Pick::point>("pick", "face:ID:b0:b1:b2|none"),
+    form_or_none<&Target::point>("target", "POINT|none"),
+    form_or_none<&ShowField::path>("field", "FILE|none"),
+    form_or_none<&MaxDistance::most, read_max_distance>("max-distance", "R|none"),
+    {"compare", "[all|NAME,NAME...]", 0, 1, read_compare,
+     write_members<Compare, &Compare::backends>},
+    {"save picture", "FILE [SIZE] [panels]", 1, 3, read_save_picture, write_save_picture},
+    form_of<&SaveDistances::path>("save distances", "FILE"),
+    form_of<&SaveMesh::path>("save mesh", "FILE"),
+    form_of<&SaveSession::path>("save session", "FILE"),
+    form_of<&SaveLog::path>("save log", "FILE"),
+    form_of<&SaveFigures::path>("save figures", "FILE"),
+    form_of<Undo>("undo"),
+    form_of<Redo>("redo"),
+    form_of<Quit>("quit"),
 };
+
+}  // namespace
+}  // namespace command
+
+namespace {
+
+using command::Form;
+using command::kForms;
 
 /// The first words of all forms, or the second words after `first`.
 std::vector<std::string> names(std::string_view first) {
@@ -359,6 +359,16 @@ std::vector<std::string> completions(std::string_view line) {
   }
   std::erase_if(all, [&](const std::string& word) { return !word.starts_with(begun); });
   return all;
+}
+
+std::string to_text(const Command& command) {
+  if (const auto* const set = std::get_if<command::Set>(&command)) {
+    return set->name + " " + command_word(set->value);
+  }
+  for (const Form& form : kForms) {
+    if (const auto arguments = form.write(command)) return std::string(form.name) + *arguments;
+  }
+  return {};  // not reached: every other command has a form
 }
 
 Result<Command> parse_command(std::string_view line) {

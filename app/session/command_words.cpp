@@ -7,10 +7,8 @@
 #include <optional>
 #include <system_error>
 
-#include "app/picture/picture_text.h"
-#include "app/session/command.h"
+#include "app/session/settings.h"
 #include "app/session/sources.h"
-#include "app/session/wording.h"
 #include "app/text/text.h"
 #include "solver/core/text.h"
 
@@ -183,25 +181,6 @@ Error WordReader::blame_last(Error why) const {
   return why;
 }
 
-Result<double> WordReader::number(double least, double most) {
-  const auto value = number_in<double>(peek());
-  if (!value || !(*value >= least && *value <= most)) {
-    const bool any = least == -kLargestNumber;
-    return fail(most != kLargestNumber
-                    ? "a number from " + number_text(least) + " to " + number_text(most)
-                    : (any ? "a number" : "a number above 0"));
-  }
-  ++next_;
-  return *value;
-}
-
-Result<int> WordReader::whole(const char* what) {
-  const auto value = number_in<int>(peek());
-  if (!value || *value < 0) return fail(what);
-  ++next_;
-  return *value;
-}
-
 Result<std::vector<Index>> WordReader::vertices() {
   const auto spec = parse_source(peek());
   const auto* const list = spec ? std::get_if<VertexList>(&*spec) : nullptr;
@@ -210,166 +189,86 @@ Result<std::vector<Index>> WordReader::vertices() {
   return list->vertices;
 }
 
-Result<SourceSpec> WordReader::source() {
-  auto spec = parse_source(next());
-  if (!spec) return blame_last(spec.error());
-  return spec;
-}
-
-Result<FacePoint> WordReader::face_point() {
-  const auto spec = parse_source(peek());
-  if (!spec || !std::holds_alternative<FacePoint>(*spec)) {
-    return fail("a point in a face, face:ID:b0:b1:b2, or none");
-  }
-  ++next_;
-  return std::get<FacePoint>(*spec);
-}
-
-Result<SourceSpec> WordReader::single_point() {
-  auto spec = parse_source(peek());
-  if (!spec || !is_single_point(*spec)) {
-    return fail("a point (a vertex id, face:ID:b0:b1:b2 or xyz:x:y:z) or none");
-  }
-  ++next_;
-  return spec;
-}
-
 Result<std::string> WordReader::one_of(const std::vector<std::string>& names) {
   if (std::ranges::find(names, peek()) == names.end()) return fail(joined(names, " or "));
   return next();
 }
 
-namespace {
-
-std::string words(std::string text, const std::vector<std::string>& more) {
-  for (const std::string& word : more) text += " " + command_word(word);
-  return text;
+Result<void> WordReader::take(double& number, double least, double most) {
+  const auto value = number_in<double>(peek());
+  if (!value || !(*value >= least && *value <= most)) {
+    const bool any = least == -kLargestNumber;
+    return fail(most != kLargestNumber
+                    ? "a number from " + number_text(least) + " to " + number_text(most)
+                    : (any ? "a number" : "a number above 0"));
+  }
+  ++next_;
+  number = *value;
+  return {};
 }
 
-std::string sources(std::string text, const std::vector<SourceSpec>& more) {
-  for (const SourceSpec& source : more) text += " " + to_text(source);
-  return text;
+Result<void> WordReader::take(int& index) {
+  const auto value = number_in<int>(peek());
+  if (!value || *value < 0) return fail("the number of a " + words_.front().text + ", from 0");
+  ++next_;
+  index = *value;
+  return {};
 }
 
-std::string numbers(std::string text, std::initializer_list<double> more) {
-  for (const double number : more) text += " " + number_text(number);
-  return text;
+Result<void> WordReader::take(bool& on) {
+  const auto word = one_of({"on", "off"});
+  if (!word) return word.error();
+  on = *word == "on";
+  return {};
 }
 
-std::string points(std::string text, const std::vector<FacePoint>& more) {
-  for (const FacePoint& point : more) text += " " + to_text(SourceSpec(point));
-  return text;
+Result<void> WordReader::take(std::string& text) {
+  text = next();
+  return {};
 }
 
-struct Printer {
-  std::string operator()(const command::Open& c) const { return words("open", {c.model}); }
-  std::string operator()(const command::Reset&) const { return "reset"; }
-  std::string operator()(const command::Run& c) const { return words("run", {c.path}); }
-  std::string operator()(const command::Set& c) const { return words(c.name, {c.value}); }
-  std::string operator()(const command::SetSources& c) const {
-    return sources("source set", c.sources);
-  }
-  std::string operator()(const command::AddSources& c) const {
-    return sources("source add", c.sources);
-  }
-  std::string operator()(const command::MoveSource& c) const {
-    return sources("source move " + std::to_string(c.index), {c.source});
-  }
-  std::string operator()(const command::RemoveSource& c) const {
-    return words("source remove", {std::to_string(c.index)});
-  }
-  std::string operator()(const command::ExtendCurve& c) const {
-    std::vector<std::string> parts;
-    for (const Index v : c.vertices) parts.push_back(std::to_string(v));
-    for (const FacePoint& point : c.points) parts.push_back(app::to_text(SourceSpec(point)));
-    return words("source extend", {joined(parts, ",")});
-  }
-  std::string operator()(const command::ClearSources&) const { return "source clear"; }
-  std::string operator()(const command::MoreSources&) const { return "source more"; }
-  std::string operator()(const command::FewerSources&) const { return "source fewer"; }
-  std::string operator()(const command::ShuffleSources&) const { return "source shuffle"; }
-  std::string operator()(const command::Sculpt& c) const {
-    const Stroke& stroke = c.stroke;
-    const std::string tool = "sculpt " + geotherm::to_text(stroke.tool);
-    return points(numbers(tool, {stroke.radius, stroke.strength}), stroke.points);
-  }
-  std::string operator()(const command::ExtendStroke& c) const {
-    return points("sculpt extend", c.points);
-  }
-  std::string operator()(const command::ShowSequence& c) const {
-    return words("sequence", {c.path.empty() ? "none" : c.path});
-  }
-  std::string operator()(const command::ShowFrame& c) const {
-    return "frame " + std::to_string(c.index);
-  }
-  std::string operator()(const command::Play& c) const { return c.on ? "play on" : "play off"; }
-  std::string operator()(const command::Loop& c) const { return c.on ? "loop on" : "loop off"; }
-  std::string operator()(const command::Orbit& c) const {
-    return numbers("camera orbit", {c.azimuth, c.elevation});
-  }
-  std::string operator()(const command::Zoom& c) const {
-    if (c.right == 0 && c.up == 0) return numbers("camera zoom", {c.factor});
-    return numbers("camera zoom", {c.factor, c.right, c.up});
-  }
-  std::string operator()(const command::Pan& c) const {
-    return numbers("camera pan", {c.right, c.up});
-  }
-  std::string operator()(const command::Centre& c) const {
-    return numbers("camera centre", {c.x, c.y, c.z});
-  }
-  std::string operator()(const command::Place& c) const {
-    return numbers("camera place", {c.azimuth, c.elevation, c.zoom, c.right, c.up});
-  }
-  std::string operator()(const command::Frame&) const { return "camera frame"; }
-  std::string operator()(const command::Rotate& c) const {
-    return c.on ? "rotate on" : "rotate off";
-  }
-  std::string operator()(const command::Keep&) const { return "keep"; }
-  std::string operator()(const command::Forget&) const { return "forget"; }
-  std::string operator()(const command::Swap&) const { return "swap"; }
-  std::string operator()(const command::Show& c) const {
-    return "show " + geotherm::to_text(c.shown);
-  }
-  std::string operator()(const command::Flip&) const { return "flip"; }
-  std::string operator()(const command::Pick& c) const {
-    return "pick " + (c.point ? to_text(SourceSpec(*c.point)) : "none");
-  }
-  std::string operator()(const command::ShowField& c) const {
-    return words("field", {c.path.empty() ? "none" : c.path});
-  }
-  std::string operator()(const command::MaxDistance& c) const {
-    return c.most < kUnreached ? numbers("max-distance", {c.most}) : "max-distance none";
-  }
-  std::string operator()(const command::Target& c) const {
-    return "target " + (c.point ? to_text(*c.point) : "none");
-  }
-  std::string operator()(const command::ShowCentre& c) const {
-    return "source centre " + (c.kind ? geotherm::to_text(*c.kind) : "none");
-  }
-  std::string operator()(const command::Compare& c) const { return words("compare", {c.backends}); }
-  std::string operator()(const command::SavePicture& c) const {
-    std::string text = words("save picture", {c.path});
-    if (c.size) text += " " + size_text(*c.size);
-    return text + (c.panels ? " panels" : "");
-  }
-  std::string operator()(const command::SaveDistances& c) const {
-    return words("save distances", {c.path});
-  }
-  std::string operator()(const command::SaveMesh& c) const { return words("save mesh", {c.path}); }
-  std::string operator()(const command::SaveSession& c) const {
-    return words("save session", {c.path});
-  }
-  std::string operator()(const command::SaveLog& c) const { return words("save log", {c.path}); }
-  std::string operator()(const command::SaveFigures& c) const {
-    return words("save figures", {c.path});
-  }
-  std::string operator()(const command::Undo&) const { return "undo"; }
-  std::string operator()(const command::Redo&) const { return "redo"; }
-  std::string operator()(const command::Quit&) const { return "quit"; }
-};
+Result<void> WordReader::take(Shown& shown) {
+  const auto name = one_of(all_names<Shown>());
+  return name ? store(parse<Shown>(*name), shown) : name.error();
+}
 
-}  // namespace
+Result<void> WordReader::take(SourceSpec& source) {
+  auto spec = parse_source(next());
+  return spec ? store(std::move(spec), source) : blame_last(spec.error());
+}
 
-std::string to_text(const Command& command) { return std::visit(Printer(), command); }
+Result<void> WordReader::take(FacePoint& touch) {
+  std::optional<FacePoint> point;
+  if (!take(point)) return fail("a point in a face, face:ID:b0:b1:b2");
+  if (point->offset != 0) return blame_last({ErrorCode::kBadInput, "a touch has no offset"});
+  touch = *point;
+  return {};
+}
+
+Result<void> WordReader::take(std::optional<FacePoint>& point) {
+  const auto spec = parse_source(peek());
+  if (!spec || !std::holds_alternative<FacePoint>(*spec)) {
+    return fail("a point in a face, face:ID:b0:b1:b2, or none");
+  }
+  ++next_;
+  point = std::get<FacePoint>(*spec);
+  return {};
+}
+
+Result<void> WordReader::take(std::optional<SourceSpec>& point) {
+  auto spec = parse_source(peek());
+  if (!spec || !is_single_point(*spec)) {
+    return fail("a point (a vertex id, face:ID:b0:b1:b2 or xyz:x:y:z) or none");
+  }
+  ++next_;
+  return store(std::move(spec), point);
+}
+
+Result<void> WordReader::take(std::optional<CentreKind>& kind) {
+  std::vector<std::string> names = all_names<CentreKind>();
+  names.emplace_back("none");
+  const auto name = one_of(names);
+  return name ? store(parse<CentreKind>(*name), kind) : name.error();
+}
 
 }  // namespace geotherm::app

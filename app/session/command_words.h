@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "app/session/sources.h"
+#include "app/session/state.h"
+#include "geotherm/directions.h"
 #include "geotherm/error.h"
 #include "geotherm/types.h"
 
@@ -38,13 +41,29 @@ class WordReader {
   const std::string& next() { return words_[next_++].text; }      ///< precondition: !at_end()
 
   // Each of these reads the next word. Precondition: !at_end().
-  Result<double> number(double least, double most);
-  Result<int> whole(const char* what = "the number of a source, from 0");
   Result<std::vector<Index>> vertices();
-  Result<SourceSpec> source();
-  Result<FacePoint> face_point();
-  Result<SourceSpec> single_point();  ///< one vertex, a point in a face or in space
   Result<std::string> one_of(const std::vector<std::string>& names);
+
+  // What a member of a command may be; the word `none` is none of these.
+  Result<void> take(double& number, double least = -kLargestNumber, double most = kLargestNumber);
+  Result<void> take(int& index);  ///< of a source or a frame, as the first word of the line says
+  Result<void> take(bool& on);
+  Result<void> take(std::string& text);
+  Result<void> take(Shown& shown);
+  Result<void> take(SourceSpec& source);
+  Result<void> take(FacePoint& touch);  ///< without an offset
+  Result<void> take(std::optional<FacePoint>& point);
+  Result<void> take(std::optional<SourceSpec>& point);  ///< is_single_point()
+  Result<void> take(std::optional<CentreKind>& kind);
+
+  /// As many as there are words, which may be none.
+  template <class Value>
+  Result<void> take(std::vector<Value>& all) {
+    while (!at_end()) {
+      if (auto taken = take(all.emplace_back()); !taken) return taken;
+    }
+    return {};
+  }
 
   /// "column N: expected WHAT", of the next word or the end of the line.
   Error fail(const std::string& what) const;

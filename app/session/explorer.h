@@ -10,6 +10,7 @@
 #include "app/session/model_solver.h"
 #include "app/session/sculpture.h"
 #include "app/session/sources.h"
+#include "app/session/state.h"
 #include "app/session/surface_curve.h"
 #include "geotherm/progress.h"
 #include "solver/mesh/frames.h"
@@ -26,21 +27,12 @@ struct Pose {
 };
 
 /// What a session asks for.
-struct ExploreRequest {
-  std::string model;
-  ModelReading reading;
+struct ExploreRequest : Question {
   std::uint64_t opening = 0;  ///< another number forces the model to be read again
   Pose pose;
-  std::vector<SourceSpec> sources;
-  MethodOptions options;              ///< A
-  std::optional<MethodOptions> kept;  ///< B
   bool fields = false, quality = true;
   Check check = Check::kOff;
-  bool nearest = false;              ///< DistanceResult::nearest_source of A
-  std::optional<SourceSpec> target;  ///< Explored::paths
-  std::optional<CentreKind> centre;  ///< Explored::centre
-  double max_distance = kUnreached;  ///< model units
-  std::string field;                 ///< a file of what is shown in place of distances; empty: none
+  bool nearest = false;  ///< DistanceResult::nearest_source of A
 
   /// Whether both need the same model and factors.
   bool same_setup(const ExploreRequest& other) const {

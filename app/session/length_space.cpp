@@ -8,8 +8,6 @@
 #include <utility>
 
 #include "app/text/text.h"
-#include "geotherm/heat_method.h"
-#include "solver/core/sorting.h"
 #include "solver/core/text.h"
 
 namespace geotherm::app {
@@ -80,12 +78,9 @@ bool add_cell(CellComplex& cells, const Face& face, const Lengths& opposite) {
 
 }  // namespace
 
-LengthSpace::LengthSpace(std::shared_ptr<const CellComplex> cells,
-                         std::shared_ptr<const TriangleMesh> drawn, std::vector<char> used)
-    : Space({"lengths", "face", "faces", "surface", "nothing", "mean longest edge"},
-            std::move(used), MethodKind::kHeat),
-      cells_(std::move(cells)),
-      drawn_(std::move(drawn)) {}
+LengthSpace::LengthSpace(CellComplex cells, TriangleMesh drawn)
+    : CellSpace({"lengths", "face", "faces", "surface", "nothing", "mean longest edge"},
+                std::move(cells), std::move(drawn), MethodKind::kHeat) {}
 
 Result<std::shared_ptr<const LengthSpace>> LengthSpace::build(const std::vector<Face>& faces,
                                                               const std::vector<Lengths>& lengths) {
@@ -112,15 +107,11 @@ Result<std::shared_ptr<const LengthSpace>> LengthSpace::build(const std::vector<
   for (const auto& [ends, edge] : *edges) {
     if (edge.faces == 1) cells.on_boundary[ends[0]] = cells.on_boundary[ends[1]] = 1;
   }
-  std::vector<char> used(static_cast<std::size_t>(cells.vertices), 0);
-  for (const Index v : cells.corners) used[v] = 1;
-  return std::shared_ptr<const LengthSpace>(
-      new LengthSpace(std::make_shared<const CellComplex>(std::move(cells)),
-                      std::make_shared<const TriangleMesh>(*std::move(drawn)), std::move(used)));
+  return std::shared_ptr<const LengthSpace>(new LengthSpace(std::move(cells), *std::move(drawn)));
 }
 
 std::vector<Index> LengthSpace::corners_of(Index cell) const {
-  const auto corners = cells_->corners_of(cell);
+  const auto corners = cells().corners_of(cell);
   return {corners.begin(), corners.end()};
 }
 
@@ -129,21 +120,8 @@ std::string LengthSpace::described() const {
 }
 
 std::vector<SpaceFigure> LengthSpace::figures() const {
-  const double area = std::accumulate(cells_->measures.begin(), cells_->measures.end(), 0.0);
+  const double area = std::accumulate(cells().measures.begin(), cells().measures.end(), 0.0);
   return {{"area", significant(area), "area", area}};
-}
-
-Index LengthSpace::components() const {
-  DisjointSets sets(used().size());
-  for (Index c = 0; c < cell_count(); ++c) {
-    const auto corners = cells_->corners_of(c);
-    for (const Index v : corners) sets.join(corners.front(), v);
-  }
-  Index count = 0;
-  for (Index v = 0; v < std::ssize(used()); ++v) {
-    count += used()[static_cast<std::size_t>(v)] != 0 && sets.root(v) == v ? 1 : 0;
-  }
-  return count;
 }
 
 std::vector<Index> LengthSpace::cells_of_faces() const {
@@ -155,18 +133,10 @@ std::vector<Index> LengthSpace::cells_of_faces() const {
 Vec3 LengthSpace::gradient_on(Index cell, std::span<const double> values) const {
   Vec3 sum = Vec3::Zero();
   for (std::size_t k = 0; k < 3; ++k) {
-    const double* const at = cells_->gradients.data() + 6 * static_cast<std::size_t>(cell) + 2 * k;
+    const double* const at = cells().gradients.data() + 6 * static_cast<std::size_t>(cell) + 2 * k;
     sum += values[k] * Vec3(at[0], at[1], 0);
   }
   return sum;
-}
-
-std::vector<Index> LengthSpace::boundary_vertices() const {
-  std::vector<Index> out;
-  for (Index v = 0; v < cells_->vertices; ++v) {
-    if (cells_->on_boundary[static_cast<std::size_t>(v)] != 0) out.push_back(v);
-  }
-  return out;
 }
 
 Result<PlacedPoint> LengthSpace::closest_point(const Vec3&) const {
@@ -182,10 +152,7 @@ Result<std::shared_ptr<const DistanceMethod>> LengthSpace::build_method(
                  "a surface of edge lengths has the heat method alone, on its own triangles",
                  {"take ", SettingHint{"method", {"heat"}}, " and ", SettingHint{"refine", {"0"}}}};
   }
-  auto made = HeatMethod::build(cells_, options, progress);
-  if (!made) return made.error();
-  return std::shared_ptr<const DistanceMethod>(
-      std::make_shared<const HeatMethod>(*std::move(made)));
+  return CellSpace::build_method(options, progress);
 }
 
 Result<void> LengthSpace::check_path(const std::string& path) const {
@@ -193,12 +160,6 @@ Result<void> LengthSpace::check_path(const std::string& path) const {
   if (extension == ".csv" || extension == ".npy") return {};
   return Error{ErrorCode::kNotAvailable,
                one_line(path) + ": distances of edge lengths are written as .csv or .npy"};
-}
-
-Result<void> LengthSpace::write(const std::string& path, std::span<const double> distances,
-                                std::span<const Index> nearest,
-                                std::span<const DataField> fields) const {
-  return write_distances(path, *drawn_, distances, nearest, fields);
 }
 
 }  // namespace geotherm::app

@@ -13,7 +13,7 @@ namespace geotherm::app {
 
 /// Triangles of which only the lengths of their sides are known: a surface that lies nowhere. What
 /// is drawn of it are its faces with all vertices at the origin.
-class LengthSpace final : public Space {
+class LengthSpace final : public CellSpace {
  public:
   /// lengths[f][k]: of the side opposite corner k of face f, model units. Errors (kBadInput, with
   /// the face): those of TriangleMesh::build(), a length that is not above 0, three lengths that
@@ -21,17 +21,13 @@ class LengthSpace final : public Space {
   static Result<std::shared_ptr<const LengthSpace>> build(
       const std::vector<Face>& faces, const std::vector<std::array<double, 3>>& lengths);
 
-  const std::shared_ptr<const TriangleMesh>& drawn() const { return drawn_; }
-
-  Index cell_count() const override { return cells_->cell_count(); }
+  Index cell_count() const override { return cells().cell_count(); }
   std::vector<Index> corners_of(Index cell) const override;
   std::string described() const override;
   std::vector<SpaceFigure> figures() const override;
-  Index components() const override;
   std::vector<Index> cells_of_faces() const override;
   Vec3 gradient_on(Index cell, std::span<const double> values) const override;
   std::string unseen() const override { return "it lies nowhere, so that nothing is drawn of it"; }
-  std::vector<Index> boundary_vertices() const override;
   /// Errors: kBadInput, always.
   Result<PlacedPoint> closest_point(const Vec3& place) const override;
   /// The heat method alone.
@@ -39,16 +35,9 @@ class LengthSpace final : public Space {
       const MethodOptions& options, const Progress& progress) const override;
   /// .csv and .npy.
   Result<void> check_path(const std::string& path) const override;
-  Result<void> write(const std::string& path, std::span<const double> distances,
-                     std::span<const Index> nearest,
-                     std::span<const DataField> fields) const override;
 
  private:
-  LengthSpace(std::shared_ptr<const CellComplex> cells, std::shared_ptr<const TriangleMesh> drawn,
-              std::vector<char> used);
-
-  std::shared_ptr<const CellComplex> cells_;
-  std::shared_ptr<const TriangleMesh> drawn_;
+  LengthSpace(CellComplex cells, TriangleMesh drawn);
 };
 
 }  // namespace geotherm::app

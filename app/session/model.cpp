@@ -11,7 +11,6 @@
 #include <vector>
 
 #include "app/session/progress.h"
-#include "app/session/read_model.h"
 #include "app/session/wording.h"
 #include "app/text/text.h"
 #include "geotherm/domains.h"

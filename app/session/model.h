@@ -87,6 +87,19 @@ inline Model unnamed(Model model) {
 Result<Model> load_model(const std::string& text, const ModelReading& reading = {},
                          const Progress& progress = {});
 
+/// The model in a file, a pipe or standard input (kStandardInput) by what it holds, or is taken
+/// for. It is opened once. Errors: those of load_model().
+Result<Model> read_model(const std::string& path, const ModelReading& reading,
+                         const Progress& progress);
+
+// Models without a name. Errors: those of the space, and of what is drawn of it.
+Model model_of(TriangleMesh mesh);
+Model model_of(const std::shared_ptr<const CellSpace>& space);
+Result<Model> model_of(const PolygonMesh& mesh);
+Result<Model> model_of(TetMesh volume);
+Result<Model> model_of(GridFile grid);
+Result<Model> model_of(const PointCloud& points, const Progress& progress);
+
 /// A model that comes with the program, as the file NAME.ply.
 struct BundledModel {
   std::string_view name;

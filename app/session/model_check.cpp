@@ -30,7 +30,7 @@ std::vector<std::size_t> spread(std::size_t count) {
 
 // What was checked, an answer or a method for many, is treated alike.
 const AccuracyReport& report_on(const Answer& answer) { return *answer.error; }
-const AccuracyReport& report_on(const CheckedMethod& checked) { return checked.error.report; }
+const AccuracyReport& report_on(const CheckedMethod& checked) { return checked.error; }
 Warning line_on(const Answer& answer) { return accuracy_line(*answer.error); }
 Warning line_on(const CheckedMethod& checked) { return accuracy_line(checked.error); }
 const MethodOptions& asked_of(const Answer& answer) { return answer.options; }
@@ -254,8 +254,7 @@ Result<CheckedMethod> ModelSolver::check_method(const ReadyMethod& ready,
         model_.space ? model_.space->reference_method() : MethodKind::kWavefront;
     if (!is_better(near_exact, by.options.method) && searches) {
       const bool is_reference = model_.space && near_exact == by.options.method;
-      return SampleCheck{unchecked(by.options.method, settings.against, is_reference), all.size(),
-                         0};
+      return SampleCheck{unchecked(by.options.method, settings.against, is_reference), all.size()};
     }
     auto results = by.method->solve_each(sets, {.quality = false}, part_of(part, 0.0, 0.2));
     if (!results) return about_model(model_.name, results.error());
@@ -269,14 +268,14 @@ Result<CheckedMethod> ModelSolver::check_method(const ReadyMethod& ready,
       if (!found) return found.error();
     }
     reference_.reset();
-    const std::size_t worst = numbers[report->worst_set];
-    return SampleCheck{*std::move(report), all.size(), worst};
+    report->worst_set = numbers[report->worst_set];
+    return SampleCheck{*std::move(report), all.size()};
   };
   auto check = checked(ready, reference_of(ready.options.method, settings), true,
                        part_of(checking, 0.0, 0.5));
   if (!check) return check.error();
   CheckedMethod out{ready, *std::move(check), {}, {}};
-  if (settings.on_poor != OnPoor::kBetter || !out.error.report.is_poor()) {
+  if (settings.on_poor != OnPoor::kBetter || !out.error.is_poor()) {
     const auto right = warn_or_fail(out, settings.on_poor);
     if (!right) return about_model(model_.name, right.error());
     return out;

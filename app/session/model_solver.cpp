@@ -234,7 +234,7 @@ Result<Answer> ModelSolver::distances(const MethodOptions& options, const Resolv
 void ModelSolver::describe_mesh(Answer& answer) const {
   answer.mesh = *summary_;
   if (answer.reach.is_bounded()) return;
-  Index unreached = answer.distance.unreached;
+  auto unreached = static_cast<Index>(answer.distance.unreached);
   if (!model_.space) {
     // Sessions answer often, and a weld may take as long as an answer.
     const TriangleMesh* const whole = use_ == Use::kOneAnswer ? model_.mesh.get() : nullptr;

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
-#include "app/session/read_model.h"
-
 #include <unistd.h>
 
 #include <filesystem>
 #include <new>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
 #include "app/session/grid_space.h"
+#include "app/session/model.h"
 #include "app/session/wording.h"
 #include "app/text/text.h"
 #include "geotherm/domains.h"
@@ -17,77 +17,22 @@
 namespace geotherm::app {
 namespace {
 
-void note_polygons_and_welding(const MeshFile& file, std::vector<Warning>& notes) {
-  if (file.polygons > 0) {
-    notes.push_back({counted(file.polygons, "polygon was", "polygons were") + " triangulated"});
+/// What reading had to do.
+template <class File>
+std::vector<Warning> notes_in(const File& file) {
+  std::vector<Warning> notes;
+  if constexpr (std::is_same_v<File, MeshFile>) {
+    if (file.polygons > 0) {
+      notes.push_back({counted(file.polygons, "polygon was", "polygons were") + " triangulated"});
+    }
+    if (file.welded > 0) {
+      notes.push_back({"the file shares no vertices between faces: " +
+                       counted(file.welded, "equal corner was", "equal corners were") +
+                       " welded, and vertices are numbered by first appearance"});
+    }
   }
-  if (file.welded > 0) {
-    notes.push_back({"the file shares no vertices between faces: " +
-                     counted(file.welded, "equal corner was", "equal corners were") +
-                     " welded, and vertices are numbered by first appearance"});
-  }
-}
-
-Result<Model> model_of(MeshFile file, std::string name, const std::string& path) {
-  Model model{std::move(name), path, nullptr, 0, {}};
-  constexpr UpAxis kAxes[] = {UpAxis::kX, UpAxis::kY, UpAxis::kZ};
-  if (file.up_axis) model.up = kAxes[*file.up_axis];
-  note_polygons_and_welding(file, model.notes);
-  for (std::string& note : file.notes) model.notes.push_back({std::move(note)});
-  model.mesh = std::make_shared<const TriangleMesh>(std::move(file.mesh));
-  return model;
-}
-
-/// The border of a volume has all its vertices, so that their numbers stay.
-Result<Model> model_of_volume(TetFile file, std::string name, const std::string& path) {
-  auto space = TetSpace::build(std::move(file.mesh));
-  if (!space) return space.error();
-  const auto positions = (*space)->tets()->positions();
-  auto mesh = TriangleMesh::build({positions.begin(), positions.end()}, (*space)->border().faces);
-  if (!mesh) return mesh.error();
-  Model model{std::move(name), path, std::make_shared<const TriangleMesh>(*std::move(mesh)), 0, {}};
-  for (std::string& note : file.notes) model.notes.push_back({std::move(note)});
-  model.space = *std::move(space);
-  return model;
-}
-
-Result<Model> model_of_polygons(const ModelInput& input, std::string name,
-                                const std::string& path) {
-  auto file = read_polygons(input);
-  if (!file) return file.error();
-  auto space = PolygonSpace::build(std::move(file->mesh));
-  if (!space) return about(one_line(path), space.error());
-  Model model{std::move(name), path, (*space)->triangles(), 0, {}};
-  for (std::string& note : file->notes) model.notes.push_back({std::move(note)});
-  model.space = *std::move(space);
-  return model;
-}
-
-Result<Model> model_of_points(PointFile file, std::string name, const std::string& path,
-                              const Progress& progress) {
-  auto surface = surface_of(file.points, {}, progress);
-  if (!surface) return surface.error();
-  Model model{std::move(name), path, nullptr, 0, {}};
-  for (auto* notes : {&file.notes, &surface->notes}) {
-    for (std::string& note : *notes) model.notes.push_back({std::move(note)});
-  }
-  for (Warning& warning : surface->warnings) model.notes.push_back(std::move(warning));
-  model.mesh = std::make_shared<const TriangleMesh>(std::move(surface->mesh));
-  model.from_points = true;
-  return model;
-}
-
-Result<Model> model_of_grid(GridFile file, std::string name, const std::string& path) try {
-  Model model{std::move(name), path, nullptr, 0, {}};
-  for (std::string& note : file.notes) model.notes.push_back({std::move(note)});
-  auto space = std::make_shared<const GridSpace>(std::move(file));
-  auto mesh = space->drawn();
-  if (!mesh) return mesh.error();
-  model.mesh = std::make_shared<const TriangleMesh>(*std::move(mesh));
-  model.space = std::move(space);
-  return model;
-} catch (const std::bad_alloc&) {
-  return Error{ErrorCode::kOutOfMemory, "the memory ended while cells were made of a grid"};
+  for (const std::string& note : file.notes) notes.push_back({note});
+  return notes;
 }
 
 /// What a file holds, as far as its beginning tells: where it has elements these may be faces.
@@ -131,6 +76,58 @@ std::string name_of(const std::string& path) {
 
 }  // namespace
 
+Model model_of(TriangleMesh mesh) {
+  Model model;
+  model.mesh = std::make_shared<const TriangleMesh>(std::move(mesh));
+  return model;
+}
+
+Model model_of(const std::shared_ptr<const CellSpace>& space) {
+  Model model;
+  model.mesh = space->drawn();
+  model.space = space;
+  return model;
+}
+
+Result<Model> model_of(const PolygonMesh& mesh) {
+  const auto space = PolygonSpace::build(mesh);
+  if (!space) return space.error();
+  return model_of(*space);
+}
+
+/// The border of a volume has all its vertices, so that their numbers stay.
+Result<Model> model_of(TetMesh volume) {
+  auto space = TetSpace::build(std::move(volume));
+  if (!space) return space.error();
+  const auto positions = (*space)->tets()->positions();
+  auto mesh = TriangleMesh::build({positions.begin(), positions.end()}, (*space)->border().faces);
+  if (!mesh) return mesh.error();
+  Model model = model_of(*std::move(mesh));
+  model.space = *std::move(space);
+  return model;
+}
+
+Result<Model> model_of(GridFile grid) try {
+  auto space = std::make_shared<const GridSpace>(std::move(grid));
+  auto mesh = space->drawn();
+  if (!mesh) return mesh.error();
+  Model model = model_of(*std::move(mesh));
+  model.space = std::move(space);
+  return model;
+} catch (const std::bad_alloc&) {
+  return Error{ErrorCode::kOutOfMemory, "the memory ended while cells were made of a grid"};
+}
+
+Result<Model> model_of(const PointCloud& points, const Progress& progress) {
+  auto surface = surface_of(points, {}, progress);
+  if (!surface) return surface.error();
+  Model model = model_of(std::move(surface->mesh));
+  for (std::string& note : surface->notes) model.notes.push_back({std::move(note)});
+  for (Warning& warning : surface->warnings) model.notes.push_back(std::move(warning));
+  model.from_points = true;
+  return model;
+}
+
 Result<Model> read_model(const std::string& path, const ModelReading& reading,
                          const Progress& progress) {
   const std::string name = name_of(path);
@@ -142,29 +139,38 @@ Result<Model> read_model(const std::string& path, const ModelReading& reading,
   if (auto fits = check_reading(reading, domain, holds); !fits) return fits.error();
   const auto with = [&](auto file, auto make) -> Result<Model> {
     if (!file) return file.error();
-    Result<Model> model = make(*std::move(file), name, path);
+    const std::vector<Warning> notes = notes_in(*file);
+    Result<Model> model = make(*std::move(file));
     if (!model) return about(one_line(path), model.error());
+    model->name = name;
+    model->path = path;
+    model->notes.insert(model->notes.begin(), notes.begin(), notes.end());
     return model;
   };
+  const auto surface = [](MeshFile file) {
+    Model model = model_of(std::move(file.mesh));
+    constexpr UpAxis kAxes[] = {UpAxis::kX, UpAxis::kY, UpAxis::kZ};
+    if (file.up_axis) model.up = kAxes[*file.up_axis];
+    return model;
+  };
+  const auto space = [](auto file) { return model_of(std::move(file.mesh)); };
+  const auto grid = [](GridFile file) { return model_of(std::move(file)); };
   const auto read_held = [&]() -> Result<Model> {
-    if (holds == ModelDomain::kGrid) return with(read_grid(*input, reading.grid), model_of_grid);
+    if (holds == ModelDomain::kGrid) return with(read_grid(*input, reading.grid), grid);
     auto tets = read_tets(*input);
-    const bool surface = !tets && tets.error().code == ErrorCode::kNotAvailable;
-    return surface ? with(read_mesh(*input), model_of) : with(std::move(tets), model_of_volume);
+    const bool is_surface = !tets && tets.error().code == ErrorCode::kNotAvailable;
+    return is_surface ? with(read_mesh(*input), surface) : with(std::move(tets), space);
   };
   switch (domain) {
     case ModelDomain::kTets:
-      return reading.domain == ModelDomain::kAuto ? read_held()
-                                                  : with(read_tets(*input), model_of_volume);
+      return reading.domain == ModelDomain::kAuto ? read_held() : with(read_tets(*input), space);
     case ModelDomain::kGrid:
-      return with(read_grid(*input, reading.grid), model_of_grid);
+      return with(read_grid(*input, reading.grid), grid);
     case ModelDomain::kPoints:
       return with(read_points(*input),
-                  [&progress](PointFile file, const std::string& stem, const std::string& of) {
-                    return model_of_points(std::move(file), stem, of, progress);
-                  });
+                  [&](const PointFile& file) { return model_of(file.points, progress); });
     case ModelDomain::kPolygons:
-      return model_of_polygons(*input, name, path);
+      return with(read_polygons(*input), space);
     case ModelDomain::kAuto:
     case ModelDomain::kTriangles:
       break;
@@ -175,7 +181,7 @@ Result<Model> read_model(const std::string& path, const ModelReading& reading,
     return model;
   }
   auto file = read_mesh(*input);
-  if (file || file.error().code != ErrorCode::kNotAvailable) return with(std::move(file), model_of);
+  if (file || file.error().code != ErrorCode::kNotAvailable) return with(std::move(file), surface);
   return unknown_format(file.error().message, !input->format().empty());
 }
 

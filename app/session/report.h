@@ -48,6 +48,11 @@ Json error_json(const AccuracyReport& report);
 /// The same of some of many source sets.
 Json error_json(const SampleCheck& check);
 
+/// The key `distance`.
+Json distance_json(const DistanceSummary& distance);
+/// "0 to 1.52, mean 0.7".
+std::string distances_in_words(const DistanceSummary& distance);
+
 /// The key `quality`. `heat`: of the heat method; what others have not is null.
 Json quality_json(const Quality& quality, bool heat);
 

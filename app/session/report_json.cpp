@@ -289,6 +289,10 @@ Json options_json(const DistanceMethod& method, const MethodOptions& asked,
   return json;
 }
 
+Json distance_json(const DistanceSummary& d) {
+  return {{"min", d.min}, {"max", d.max}, {"mean", d.mean}, {"unreached", d.unreached}};
+}
+
 Json error_json(const AccuracyReport& report) {
   const DistanceError& e = report.figures;
   const auto figure = [&report](auto value) {
@@ -317,11 +321,12 @@ Json error_json(const AccuracyReport& report) {
 }
 
 Json error_json(const SampleCheck& check) {
-  Json json = error_json(check.report);
-  if (!check.report.measured) return json;
-  json["sources_checked"] = check.report.sets;
+  const AccuracyReport& report = check;
+  Json json = error_json(report);
+  if (!report.measured) return json;
+  json["sources_checked"] = report.sets;
   json["sources"] = check.of;
-  json["worst_source"] = check.worst;
+  json["worst_source"] = report.worst_set;
   return json;
 }
 
@@ -353,11 +358,7 @@ Json solve_json(const Answer& f) {
   if (!f.sources.edges.empty()) json["source_edges"] = f.sources.edges;
   if (!f.sources.segments.empty()) json["source_segments"] = segments_json(f.sources);
   if (!f.sources.offsets.empty()) json["source_offsets"] = offsets_json(f.sources);
-  json.update({{"distance",
-                {{"min", f.distance.min},
-                 {"max", f.distance.max},
-                 {"mean", f.distance.mean},
-                 {"unreached", f.distance.unreached}}},
+  json.update({{"distance", distance_json(f.distance)},
                {"timing_ms",
                 {{"load", f.model.load_ms},
                  {"operators", setup.operators},

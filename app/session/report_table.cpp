@@ -88,9 +88,8 @@ std::string sources_in_words(const SourceSet& sources) {
   return text;
 }
 
-std::string distance_in_words(const DistanceSummary& d, Index vertices) {
-  std::string text =
-      significant(d.min) + " to " + significant(d.max) + ", mean " + significant(d.mean);
+std::string reached_in_words(const DistanceSummary& d, Index vertices) {
+  std::string text = distances_in_words(d);
   if (d.unreached > 0)
     text += ", " + grouped(d.unreached) + " of " + counted(vertices, "vertex", "vertices") +
             " unreached";
@@ -160,6 +159,11 @@ std::string bounds_in_words(const Quality& q) {
 
 }  // namespace
 
+std::string distances_in_words(const DistanceSummary& distance) {
+  return significant(distance.min) + " to " + significant(distance.max) + ", mean " +
+         significant(distance.mean);
+}
+
 std::string solve_table(const Answer& f) {
   const Quality& q = f.result.quality;
   const HeatMethod* heat = f.method->heat();
@@ -187,8 +191,7 @@ std::string solve_table(const Answer& f) {
   table.add_row({"sources", sources_in_words(f.sources)});
   add_times(table, f);
   const bool time = f.model.space && f.model.space->measures_time();
-  table.add_row(
-      {time ? "travel time" : "distance", distance_in_words(f.distance, f.mesh.vertices)});
+  table.add_row({time ? "travel time" : "distance", reached_in_words(f.distance, f.mesh.vertices)});
   std::string gradient =
       "| |grad d| - 1 | = " + significant(q.eikonal_error_mean, 2) + " on average";
   if (heat != nullptr) {

@@ -120,10 +120,7 @@ std::vector<std::string> files_written_by(const std::string& script) {
 namespace {
 
 bool moves_camera(const Command& command) {
-  return std::holds_alternative<command::Orbit>(command) ||
-         std::holds_alternative<command::Zoom>(command) ||
-         std::holds_alternative<command::Pan>(command) ||
-         std::holds_alternative<command::Place>(command);
+  return is_any_of<command::Orbit, command::Zoom, command::Pan, command::Place>(command);
 }
 
 command::Place place_of(const CameraSettings& camera) {
@@ -141,18 +138,13 @@ bool continues(const Command& before, const Command& now) {
     const auto* last = std::get_if<command::MoveSource>(&before);
     return last != nullptr && last->index == move->index;
   }
-  if (std::holds_alternative<command::ExtendCurve>(now)) {
-    return std::holds_alternative<command::ExtendCurve>(before) ||
-           std::holds_alternative<command::AddSources>(before);
+  if (is_any_of<command::ExtendCurve>(now)) {
+    return is_any_of<command::ExtendCurve, command::AddSources>(before);
   }
-  if (std::holds_alternative<command::ShowFrame>(now)) {
-    return std::holds_alternative<command::ShowFrame>(before);
+  if (is_any_of<command::ExtendStroke>(now)) {
+    return is_any_of<command::ExtendStroke, command::Sculpt>(before);
   }
-  if (std::holds_alternative<command::ExtendStroke>(now)) {
-    return std::holds_alternative<command::ExtendStroke>(before) ||
-           std::holds_alternative<command::Sculpt>(before);
-  }
-  return false;
+  return is_any_of<command::ShowFrame>(now) && is_any_of<command::ShowFrame>(before);
 }
 
 namespace {

@@ -19,11 +19,6 @@ constexpr std::size_t kMaxUndo = 200;
 /// Scripts that run scripts end here: most likely they run each other.
 constexpr int kMaxScripts = 100;
 
-template <class... Kinds>
-bool is_any_of(const Command& command) {
-  return (std::holds_alternative<Kinds>(command) || ...);
-}
-
 /// Those that need answers that belong to the state.
 bool needs_answers(const Command& command) {
   return is_any_of<command::SavePicture, command::SaveDistances, command::SaveMesh,

@@ -49,13 +49,9 @@ ExploreRequest answers_of(ExploreRequest request) {
 
 ExploreRequest Session::State::wanted() const {
   ExploreRequest request;
-  request.model = state.model;
-  request.reading = state.reading;
+  static_cast<Question&>(request) = state;
   request.opening = opening;
   request.pose = {state.timeline.sequence, state.timeline.frame, state.sculpture};
-  request.sources = state.sources;
-  request.options = state.options;
-  request.kept = state.kept;
   request.fields = needs_fields(state.picture.view) || state.picked.has_value();
   request.quality = !dragging;
   const View view = state.picture.view;
@@ -63,10 +59,7 @@ ExploreRequest Session::State::wanted() const {
   if (view == View::kExactError) request.check = std::max(request.check, Check::kAuto);
   // What moves is not checked: it comes to rest first.
   if (dragging && request.check == Check::kOn) request.check = Check::kOff;
-  request.target = state.target;
-  if (!dragging) request.centre = state.centre;
-  request.max_distance = state.max_distance;
-  request.field = state.field;
+  if (dragging) request.centre.reset();
   request.nearest = view == View::kRegions;
   return request;
 }

@@ -155,40 +155,54 @@ class TetSpace final : public Space {
   TetBoundary border_;
 };
 
+/// Cells of any kind, and the triangles that they are drawn as.
+class CellSpace : public Space {
+ public:
+  const std::shared_ptr<const TriangleMesh>& drawn() const { return drawn_; }
+
+  Index components() const override;
+  std::vector<Index> boundary_vertices() const override;
+  /// The heat method on the cells.
+  Result<std::shared_ptr<const DistanceMethod>> build_method(
+      const MethodOptions& options, const Progress& progress) const override;
+  Result<void> write(const std::string& path, std::span<const double> distances,
+                     std::span<const Index> nearest,
+                     std::span<const DataField> fields) const override;
+
+ protected:
+  CellSpace(const SpaceWords& words, CellComplex cells, TriangleMesh drawn,
+            MethodKind reference_method);
+
+  const CellComplex& cells() const { return *cells_; }
+
+ private:
+  std::shared_ptr<const CellComplex> cells_;
+  std::shared_ptr<const TriangleMesh> drawn_;
+};
+
 /// Polygons, and the triangles that they are drawn as.
-class PolygonSpace final : public Space {
+class PolygonSpace final : public CellSpace {
  public:
   /// Errors: those of cells_of() and triangulated().
   static Result<std::shared_ptr<const PolygonSpace>> build(const PolygonMesh& mesh);
-
-  const std::shared_ptr<const TriangleMesh>& triangles() const { return triangles_; }
 
   Index cell_count() const override { return count_; }
   std::vector<Index> corners_of(Index cell) const override;
   std::string described() const override;
   std::vector<SpaceFigure> figures() const override;
-  Index components() const override;
   std::vector<Index> cells_of_faces() const override { return cells_of_faces_; }
   Vec3 gradient_on(Index cell, std::span<const double> values) const override;
-  std::vector<Index> boundary_vertices() const override;
   /// The nearest vertex of the nearest triangle.
   Result<PlacedPoint> closest_point(const Vec3& place) const override;
   Result<std::shared_ptr<const DistanceMethod>> build_method(
       const MethodOptions& options, const Progress& progress) const override;
   Result<void> check_path(const std::string& path) const override;
-  Result<void> write(const std::string& path, std::span<const double> distances,
-                     std::span<const Index> nearest,
-                     std::span<const DataField> fields) const override;
 
  private:
-  PolygonSpace(std::shared_ptr<const CellComplex> cells,
-               std::shared_ptr<const TriangleMesh> triangles, std::vector<Index> cells_of_faces,
-               std::vector<char> used);
+  PolygonSpace(CellComplex cells, TriangleMesh triangles, std::vector<Index> cells_of_faces);
   /// The first of the cells that a polygon is.
   Index place_of(Index polygon) const;
 
-  std::shared_ptr<const CellComplex> cells_;
-  std::shared_ptr<const TriangleMesh> triangles_;
   std::vector<Index> cells_of_faces_;
   Index count_ = 0;  ///< of polygons, each of which is several cells
 };

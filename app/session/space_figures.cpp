@@ -164,17 +164,17 @@ std::vector<SpaceFigure> PolygonSpace::figures() const {
   std::vector<Edge> edges;
   double area = 0;
   std::int64_t least = std::numeric_limits<std::int64_t>::max(), most = 0;
-  for (Index c = 0; c < cells_->cell_count(); ++c) {
-    area += cells_->measures[c];
-    if (c > 0 && cells_->numbers[c] == cells_->numbers[c - 1]) continue;
-    const auto corners = cells_->corners_of(c);
+  for (Index c = 0; c < cells().cell_count(); ++c) {
+    area += cells().measures[c];
+    if (c > 0 && cells().numbers[c] == cells().numbers[c - 1]) continue;
+    const auto corners = cells().corners_of(c);
     for (std::size_t k = 0; k < corners.size(); ++k) {
       edges.push_back({corners[k], corners[(k + 1) % corners.size()]});
     }
     least = std::min<std::int64_t>(least, std::ssize(corners));
     most = std::max<std::int64_t>(most, std::ssize(corners));
   }
-  const EdgeFigures lengths = measure_edges(std::move(edges), triangles_->positions());
+  const EdgeFigures lengths = measure_edges(std::move(edges), drawn()->positions());
   std::vector<SpaceFigure> out;
   out.push_back({"polygons",
                  grouped(cell_count()) + " of " + std::to_string(least) +
@@ -192,8 +192,8 @@ std::vector<SpaceFigure> PolygonSpace::figures() const {
   return out;
 }
 
-Index PolygonSpace::components() const {
-  DisjointSets sets(triangles_->positions().size());
+Index CellSpace::components() const {
+  DisjointSets sets(used().size());
   for (Index c = 0; c < cells_->cell_count(); ++c) {
     const auto corners = cells_->corners_of(c);
     for (const Index v : corners) sets.join(corners.front(), v);
@@ -203,8 +203,8 @@ Index PolygonSpace::components() const {
 
 /// The mean over the polygon, which hangs on the values along its sides alone.
 Vec3 PolygonSpace::gradient_on(Index cell, std::span<const double> values) const {
-  const auto corners = cells_->corners_of(place_of(cell));
-  const auto at = [&](std::size_t k) { return cells_->positions[corners[k % corners.size()]]; };
+  const auto corners = cells().corners_of(place_of(cell));
+  const auto at = [&](std::size_t k) { return cells().positions[corners[k % corners.size()]]; };
   Vec3 twice = Vec3::Zero(), sum = Vec3::Zero();
   for (std::size_t k = 0; k < corners.size(); ++k) {
     const Vec3 side = at(k + 1) - at(k);

@@ -37,24 +37,30 @@ struct Timeline {
   bool operator==(const Timeline&) const = default;
 };
 
-/// All that decides what the program shows; a plain value. What commands change and session files
-/// hold. Answers, panels and windows are not part of it.
-struct ViewerState {
-  std::string model;     ///< a path or a bundled name; empty: none is open
-  ModelReading reading;  ///< how the model is read
-  Timeline timeline;
-  Sculpture sculpture;                ///< what was done to the surface since it was opened
+/// What is open, and what is asked of it.
+struct Question {
+  std::string model;                  ///< a path or a bundled name; empty: none is open
+  ModelReading reading;               ///< how the model is read
   std::vector<SourceSpec> sources;    ///< one set
   MethodOptions options;              ///< A
   std::optional<MethodOptions> kept;  ///< B
-  Shown shown = Shown::kA;            ///< kA unless `kept`
-  Check check = Check::kOn;           ///< the view exact-error means kAuto where it is off or on
   std::optional<SourceSpec> target;   ///< paths lead from this single point to the sources
   std::optional<CentreKind> centre;   ///< of the sources, which is shown; none: no centre
   double max_distance = kUnreached;   ///< distances beyond it are not asked for, model units
   std::string field;                  ///< a file shown in place of distances; empty: none
-  PictureSettings picture;            ///< width and height: of saved pictures
-  std::optional<FacePoint> picked;    ///< the point whose figures are shown
+
+  bool operator==(const Question&) const = default;
+};
+
+/// All that decides what the program shows; a plain value. What commands change and session files
+/// hold. Answers, panels and windows are not part of it.
+struct ViewerState : Question {
+  Timeline timeline;
+  Sculpture sculpture;              ///< what was done to the surface since it was opened
+  Shown shown = Shown::kA;          ///< kA unless `kept`
+  Check check = Check::kOn;         ///< the view exact-error means kAuto where it is off or on
+  PictureSettings picture;          ///< width and height: of saved pictures
+  std::optional<FacePoint> picked;  ///< the point whose figures are shown
   bool rotating = false;
 
   bool operator==(const ViewerState&) const = default;

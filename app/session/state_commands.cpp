@@ -68,20 +68,14 @@ UndoRule undo_rule(const Command& command) {
         set->name == "time-factor" || set->name == "slice-at" || set->name == "peel";
     return {true, slider};
   }
-  const auto is = [&command]<class... Kinds>(std::variant<Kinds...>*) {
-    return (std::holds_alternative<Kinds>(command) || ...);
-  };
-  const bool merged = is(
-      static_cast<std::variant<command::MoveSource, command::ExtendCurve, command::ExtendStroke>*>(
-          nullptr));
+  const bool merged =
+      is_any_of<command::MoveSource, command::ExtendCurve, command::ExtendStroke>(command);
   const bool undoable =
-      merged ||
-      is(static_cast<std::variant<
-             command::SetSources, command::AddSources, command::RemoveSource, command::ClearSources,
-             command::MoreSources, command::FewerSources, command::ShuffleSources, command::Sculpt,
-             command::Keep, command::Forget, command::Swap, command::Show, command::Flip,
-             command::Target, command::ShowCentre, command::ShowField, command::MaxDistance>*>(
-          nullptr));
+      merged || is_any_of<command::SetSources, command::AddSources, command::RemoveSource,
+                          command::ClearSources, command::MoreSources, command::FewerSources,
+                          command::ShuffleSources, command::Sculpt, command::Keep, command::Forget,
+                          command::Swap, command::Show, command::Flip, command::Target,
+                          command::ShowCentre, command::ShowField, command::MaxDistance>(command);
   return {undoable, merged};
 }
 

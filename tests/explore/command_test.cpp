@@ -173,10 +173,11 @@ TEST(Command, NumbersReadBackExactly) {
   std::mt19937_64 random(7);
   std::uniform_real_distribution<double> angle(-360, 360);
   for (int i = 0; i < 200; ++i) {
-    const Command command = Orbit{angle(random), angle(random) * 1e-9};
-    const auto parsed = parse_command(to_text(command));
+    const Orbit orbit = {angle(random), angle(random) * 1e-9};
+    const auto parsed = parse_command(to_text(orbit));
     ASSERT_TRUE(parsed);
-    EXPECT_EQ(*parsed, command);
+    EXPECT_EQ(std::get<Orbit>(*parsed).azimuth, orbit.azimuth);
+    EXPECT_EQ(std::get<Orbit>(*parsed).elevation, orbit.elevation);
   }
 }
 
@@ -191,7 +192,7 @@ TEST(Command, WeightsOfFacePointsReadBackExactly) {
     ASSERT_TRUE(first) << first.error().message;
     const auto again = parse_command(to_text(*first));
     ASSERT_TRUE(again);
-    EXPECT_EQ(*again, *first);
+    EXPECT_EQ(std::get<SetSources>(*again).sources, std::get<SetSources>(*first).sources);
   }
 }
 

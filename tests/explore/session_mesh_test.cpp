@@ -111,6 +111,16 @@ TEST_F(SessionMesh, ErrorsOfFacesGoWhenAFileIsShown) {
   EXPECT_TRUE(data.face_values.empty());
 }
 
+TEST_F(SessionMesh, ScriptsFindWhatTheyShowBesideThem) {
+  write(folder() + "values.txt", "1\n");
+  write(folder() + "shows.geotherm", "open " + small_model() + "\nfield values.txt\n");
+  const auto ran = session.submit(command::Run{folder() + "shows.geotherm"});
+  ASSERT_FALSE(ran);  // of the wrong size, and therefore read
+  EXPECT_EQ(ran.error().message.find("No such file"), std::string::npos) << ran.error().message;
+  EXPECT_NE(ran.error().message.find(folder() + "values.txt"), std::string::npos)
+      << ran.error().message;
+}
+
 TEST_F(SessionMesh, WeldingReadsTheModelAgainAndIsUndone) {
   run({"open " + cracked("a.obj"), "source set 0"});
   EXPECT_TRUE(std::isinf(shown().distances[6]));

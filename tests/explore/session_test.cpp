@@ -303,16 +303,6 @@ TEST_F(SessionTest, ScriptsSayTheirLineAndStopWhereTheyFail) {
       << undone.error().message;
 }
 
-TEST_F(SessionTest, ScriptsFindWhatTheyShowBesideThem) {
-  write(folder() + "values.txt", "1\n");
-  write(folder() + "shows.geotherm", "open " + small_model() + "\nfield values.txt\n");
-  const auto ran = session.submit(command::Run{folder() + "shows.geotherm"});
-  ASSERT_FALSE(ran);  // of the wrong size, and therefore read
-  EXPECT_EQ(ran.error().message.find("No such file"), std::string::npos) << ran.error().message;
-  EXPECT_NE(ran.error().message.find(folder() + "values.txt"), std::string::npos)
-      << ran.error().message;
-}
-
 TEST_F(SessionTest, ScriptsThatRunEachOtherEnd) {
   const std::string path = folder() + "circle.geotherm";
   write(path, "run " + path + "\n");
