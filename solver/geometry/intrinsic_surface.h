@@ -30,12 +30,12 @@ struct SurfaceRules {
   FlipRule flip = FlipRule::kNever;
   CoverRule cover = CoverRule::kNever;
   RefineRule refine = RefineRule::kNever;
-  /// Of every triangle inequality in the end, as mollify() has it: kStrict where matrices stand on
-  /// the surface; fronts need no more than kBarelyStrict.
-  double strict = kStrict;
   bool parts = false;  ///< name connected parts; where it is refined they are named in any case
   /// Measure lengths in the unit of an earlier surface, where the mean edge is near it.
   bool same_unit = false;
+  /// Of every triangle inequality in the end, as mollify() has it: kStrict where matrices stand on
+  /// the surface; fronts need no more than kBarelyStrict.
+  double strict = kStrict;
 };
 
 /// What a surface keeps of the clean faces of its mesh, before flips. It says nothing of where

@@ -174,10 +174,13 @@ Result<std::shared_ptr<const Surface>> build_surface(std::shared_ptr<const Trian
                                                      const TriangulationReady& ready) {
   Stopwatch watch;
   const bool little = earlier != nullptr && moved_little(*earlier, *mesh);
-  auto built = build_intrinsic_surface(
-      std::move(mesh),
-      {flip_rule(laplacian), cover_rule(laplacian), refine_rule(laplacian), true, little},
-      part_of(progress, 0.0, kAnalyzeFrom), threads, earlier);
+  auto built = build_intrinsic_surface(std::move(mesh),
+                                       {.flip = flip_rule(laplacian),
+                                        .cover = cover_rule(laplacian),
+                                        .refine = refine_rule(laplacian),
+                                        .parts = true,
+                                        .same_unit = little},
+                                       part_of(progress, 0.0, kAnalyzeFrom), threads, earlier);
   if (!built) return built.error();
   auto out = std::make_shared<Surface>();
   static_cast<IntrinsicSurface&>(*out) = std::move(*built);
