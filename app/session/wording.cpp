@@ -173,8 +173,7 @@ std::vector<Warning> mesh_warnings(const MeshReport& mesh) {
     out.push_back({counted(mollified.faces, "face has", "faces have") +
                    " no or nearly no area: " + counted(mollified.edges, "edge", "edges") + " in " +
                    counted(mollified.components, "component", "components") +
-                   " are lengthened for heat where no flip removes the face, by up to " +
-                   significant(mollified.most) + ", which is " +
+                   " will be lengthened, by up to " + significant(mollified.most) + ", which is " +
                    significant(mollified.most / mesh.mean_edge_length, 2) + " mean edges"});
   } else if (mesh.components > 0 && mesh.smallest_angle < kNeedle) {
     out.push_back({"there are needles: the smallest angle is " +

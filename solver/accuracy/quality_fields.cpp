@@ -134,7 +134,8 @@ std::vector<double> non_delaunay_edges(const TriangleMesh& mesh) {
   const CleanFaces clean = clean_faces(mesh);
   const double unit = mean_edge_length(mesh.positions(), clean.edges);
   if (!(unit > 0)) return count;
-  const IntrinsicMesh intrinsic = build_intrinsic_mesh(mesh.positions(), clean, unit);
+  const IntrinsicMesh intrinsic =
+      build_intrinsic_mesh(mesh.positions(), clean, unit, 1, Strictness::kHeights);
   for (const Side side : non_delaunay_sides(intrinsic)) {
     for (const Side each : {side, intrinsic.twin[side]}) ++count[clean.original[face_of(each)]];
   }

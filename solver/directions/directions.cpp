@@ -44,7 +44,8 @@ Directions::~Directions() = default;
 
 Result<std::shared_ptr<const Directions>> Directions::build(
     std::shared_ptr<const TriangleMesh> mesh, const Progress& progress) try {
-  auto base = build_intrinsic_surface(mesh, {.strict = kBarelyStrict}, part_of(progress, 0, 0.5));
+  auto base = build_intrinsic_surface(mesh, {.strictness = Strictness::kHeights},
+                                      part_of(progress, 0, 0.5));
   if (!base) return base.error();
   auto waves = build_wave_surface(std::make_shared<const IntrinsicSurface>(*std::move(base)),
                                   part_of(progress, 0.5, 1));

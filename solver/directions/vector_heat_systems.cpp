@@ -109,8 +109,8 @@ Result<std::vector<double>> VectorHeat::State::spread(const Warmth& warmth,
 Result<const VectorParts*> VectorHeat::State::vector_parts(const Progress& progress) const {
   const std::lock_guard lock(lock_);
   if (parts_) return parts_.get();
-  auto base =
-      build_intrinsic_surface(surface->mesh, {}, part_of(progress, 0, 0.3), threads, surface.get());
+  auto base = build_intrinsic_surface(surface->mesh, {.strictness = Strictness::kHeights},
+                                      part_of(progress, 0, 0.3), threads, surface.get());
   if (!base) return base.error();
   auto waves = build_wave_surface(std::make_shared<const IntrinsicSurface>(*std::move(base)),
                                   part_of(progress, 0.3, 0.6));

@@ -105,8 +105,7 @@ std::vector<Warning> notes_of(const RankGroup& ranks, const MeshPart& part,
   lengthened = ranks.max(lengthened);
   if (lengthened > 0) {
     notes.push_back({"faces that are degenerate or nearly so had edges lengthened, by up to " +
-                     rounded_text(lengthened) +
-                     "; distances may be too long, by as much for each of them that is crossed"});
+                     rounded_text(lengthened) + "; distances across such a face may be too long"});
   }
   ranks.all_reduce(needs, RankGroup::Reduction::kSum);
   note_needs(needs[0], needs[1], notes);

@@ -15,16 +15,18 @@ namespace {
 
 /// Cotangent sums down to this are accepted. Cocircular corners, as in every mesh of rectangles,
 /// would otherwise flip back and forth, driven by the rounding of the coordinates (1e-7 of an edge
-/// for a model that stands a million of its sizes away from the origin).
+/// for a model that stands a million of its sizes away from the origin). Large cotangents are those
+/// of flat triangles, known to 1e-7 where these are 1e-5 of their longest side high.
 constexpr double kFlipTolerance = 1e-6;
 
 /// Flips between two calls of progress: a few milliseconds.
 constexpr std::size_t kFlipsBetweenCalls = 1 << 14;
 
-double weight(const IntrinsicMesh& mesh, Side side) {
+bool is_delaunay(const IntrinsicMesh& mesh, Side side) {
   const Side other = mesh.twin[side];
-  return opposite_cotangent(mesh.lengths[face_of(side)], corner_of(side)) +
-         opposite_cotangent(mesh.lengths[face_of(other)], corner_of(other));
+  const double a = opposite_cotangent(mesh.lengths[face_of(side)], corner_of(side));
+  const double b = opposite_cotangent(mesh.lengths[face_of(other)], corner_of(other));
+  return a + b >= -kFlipTolerance * std::max({1.0, std::abs(a), std::abs(b)});
 }
 
 Edit flip(IntrinsicMesh& mesh, Side side) {
@@ -81,7 +83,7 @@ bool flip_next(IntrinsicMesh& mesh, std::vector<Side>& queue, std::vector<Edit>&
   queue.pop_back();
   const Side other = mesh.twin[side];
   if (other == kNoSide || face_of(other) == face_of(side)) return false;
-  if (!(weight(mesh, side) < -kFlipTolerance)) return false;
+  if (is_delaunay(mesh, side)) return false;
   const Edit made = flip(mesh, side);
   edits.push_back(made);
   for (const Index face : {made.f, made.g}) {
@@ -136,7 +138,7 @@ std::vector<Side> non_delaunay_sides(const IntrinsicMesh& mesh, int threads) {
       // Two angles of at most 90 degrees, as at most edges: their cotangents need not be known.
       const bool in_doubt = may_be_obtuse(mesh.lengths[face_of(side)], corner_of(side)) ||
                             may_be_obtuse(mesh.lengths[face_of(other)], corner_of(other));
-      if (in_doubt && weight(mesh, side) < -kFlipTolerance) found.push_back(side);
+      if (in_doubt && !is_delaunay(mesh, side)) found.push_back(side);
     }
   };
   return list_in_parallel<Side>(threads, std::ssize(mesh.twin), kGrain, list);

@@ -14,6 +14,9 @@ namespace {
 
 using Lengths = std::array<double, 3>;
 
+/// Relative to the longest side of the face: faces of any size keep their shape unless that is
+/// degenerate.
+constexpr double kStrict = 1e-5;
 /// What is lengthened gets a tenth more, so that corrections which call for each other come to an
 /// end.
 constexpr double kAim = 1.1;
@@ -24,25 +27,30 @@ constexpr int kMaxRounds = 100;
 
 /// The length by which the triangle inequality over side k fails to be strict; at most 0 where it
 /// is strict enough. Points become faces that are well shaped and small.
-double missing(const Lengths& l, int k, double strict) {
+double missing(const Lengths& l, int k, Strictness strictness, double aim = 1) {
   const double longest = std::max({l[0], l[1], l[2]});
-  const double least = longest > kPointLength ? strict * longest : kStrict;
-  return least + l[k] - l[next_corner(k)] - l[previous_corner(k)];
+  const double a = l[next_corner(k)], b = l[previous_corner(k)];
+  double least = kStrict * (longest > kPointLength ? longest : 1.0);
+  if (strictness == Strictness::kHeights && longest > kPointLength) {
+    // Twice the area is L h; of Heron's factors a + b - L is L h^2 / (2 a b) where it is small.
+    least *= std::min(1.0, kStrict / 2 * (longest / a) * (longest / b));
+  }
+  return aim * least + l[k] - a - b;
 }
 
 /// The smallest length that makes a face strict when added to all three sides.
-double addition(const Lengths& l, double strict) {
+double addition(const Lengths& l, Strictness strictness) {
   const double most =
-      std::max({missing(l, 0, strict), missing(l, 1, strict), missing(l, 2, strict)});
-  return std::max(0.0, most / (1 - strict));  // the longest side grows as well
+      std::max({missing(l, 0, strictness), missing(l, 1, strictness), missing(l, 2, strictness)});
+  return std::max(0.0, most / (1 - kStrict));  // the longest side grows as well
 }
 
-std::vector<Index> faces_that_fail(const std::vector<Lengths>& lengths, double strict,
+std::vector<Index> faces_that_fail(const std::vector<Lengths>& lengths, Strictness strictness,
                                    int threads) {
   constexpr std::int64_t kGrain = 1 << 15;  // minimum faces per thread
   const auto list = [&](std::int64_t begin, std::int64_t end, std::vector<Index>& found) {
     for (auto f = static_cast<Index>(begin); f < static_cast<Index>(end); ++f) {
-      if (addition(lengths[f], strict) > 0) found.push_back(f);
+      if (addition(lengths[f], strictness) > 0) found.push_back(f);
     }
   };
   return list_in_parallel<Index>(threads, std::ssize(lengths), kGrain, list);
@@ -52,10 +60,10 @@ std::vector<Index> faces_that_fail(const std::vector<Lengths>& lengths, double s
 class LocalRepair {
  public:
   /// `first`: first_sides() of the mesh.
-  LocalRepair(std::vector<Lengths>& lengths, const std::vector<Side>& first, double strict)
+  LocalRepair(std::vector<Lengths>& lengths, const std::vector<Side>& first, Strictness strictness)
       : lengths_(lengths),
         first_(first),
-        strict_(strict),
+        strictness_(strictness),
         next_(first.size()),
         wanted_(first.size(), 0.0) {
     std::iota(next_.begin(), next_.end(), 0);
@@ -91,9 +99,9 @@ class LocalRepair {
   /// Computes the lengths that a failing face needs, and adds the first sides of its edges to
   /// `called`.
   void ask_for(Index f, std::vector<Side>& called) {
-    if (!(addition(lengths_[f], strict_) > 0)) return;
+    if (!(addition(lengths_[f], strictness_) > 0)) return;
     for (int k = 0; k < 3; ++k) {
-      const double lack = missing(lengths_[f], k, kAim * strict_);
+      const double lack = missing(lengths_[f], k, strictness_, kAim);
       if (!(lack > 0)) continue;
       // The shorter of the two takes the more: a needle keeps its long sides as they are.
       const int i = next_corner(k), j = previous_corner(k);
@@ -113,17 +121,17 @@ class LocalRepair {
 
   std::vector<Lengths>& lengths_;
   const std::vector<Side>& first_;
-  double strict_;
+  Strictness strictness_;
   std::vector<Side> next_;      // of each side that of the same edge, the first after the last
   std::vector<double> wanted_;  // of each edge in this round, at its first side
 };
 
 void add_to_components(std::vector<Lengths>& lengths, const FaceComponents& components,
-                       double strict) {
+                       Strictness strictness) {
   std::vector<double> needed(static_cast<std::size_t>(components.count), 0.0);
   for (std::size_t f = 0; f < lengths.size(); ++f) {
     double& most = needed[components.of[f]];
-    most = std::max(most, addition(lengths[f], strict));
+    most = std::max(most, addition(lengths[f], strictness));
   }
   for (std::size_t f = 0; f < lengths.size(); ++f) {
     for (double& length : lengths[f]) length += needed[components.of[f]];
@@ -156,7 +164,7 @@ std::vector<Side> first_sides(const IntrinsicMesh& mesh) {
   for (Side side = 0; side < static_cast<Side>(mesh.twin.size()); ++side) {
     const Side twin = mesh.twin[side];
     first[side] = twin == kNoSide ? side : std::min(side, twin);
-    if (twin == kNoSide) alone.push_back(side);
+    if (twin == kNoSide || twin == side) alone.push_back(side);
   }
   const auto ends = [&mesh](Side side) {
     const Face& face = mesh.faces[face_of(side)];
@@ -172,11 +180,10 @@ std::vector<Side> first_sides(const IntrinsicMesh& mesh) {
   return first;
 }
 
-Mollification mollify(IntrinsicMesh& mesh, double strict, int threads) {
-  Mollification out;
+Index mollify(IntrinsicMesh& mesh, Strictness strictness, int threads) {
   std::vector<Lengths>& lengths = mesh.lengths;
-  const std::vector<Index> failing = faces_that_fail(lengths, strict, threads);
-  if (failing.empty()) return out;
+  const std::vector<Index> failing = faces_that_fail(lengths, strictness, threads);
+  if (failing.empty()) return 0;
   Index vertices = 0;
   for (const Face& face : mesh.faces) {
     vertices = std::max({vertices, face[0] + 1, face[1] + 1, face[2] + 1});
@@ -184,22 +191,29 @@ Mollification mollify(IntrinsicMesh& mesh, double strict, int threads) {
   const std::vector<Lengths> before = lengths;
   const FaceComponents components = face_components(mesh.faces, vertices);
   const std::vector<Side> first = first_sides(mesh);
-  if (!LocalRepair(lengths, first, strict).run(failing)) {
+  if (!LocalRepair(lengths, first, strictness).run(failing)) {
     lengths = before;
-    add_to_components(lengths, components, strict);
+    add_to_components(lengths, components, strictness);
   }
+  const auto fronts = static_cast<Index>(mesh.back.empty() ? mesh.faces.size() : mesh.back.size());
+  Mollification added;
   std::vector<char> touched(static_cast<std::size_t>(components.count), 0);
-  for (Side side = 0; side < static_cast<Side>(first.size()); ++side) {
-    const double added =
+  for (Side side = 0; side < 3 * fronts; ++side) {
+    const double by =
         lengths[face_of(side)][corner_of(side)] - before[face_of(side)][corner_of(side)];
-    if (first[side] != side || !(added > 0)) continue;
-    ++out.edges;
-    out.most = std::max(out.most, added);
+    if (first[side] != side || !(by > 0)) continue;
+    ++added.edges;
+    added.most = std::max(added.most, by);
     touched[components.of[face_of(side)]] = 1;
   }
-  out.faces = static_cast<Index>(failing.size());
-  out.components = static_cast<Index>(std::count(touched.begin(), touched.end(), 1));
-  return out;
+  // What is lengthened again counts once.
+  Mollification& all = mesh.mollified;
+  all.most += added.most;
+  all.faces = std::max(all.faces, static_cast<Index>(std::ranges::count_if(
+                                      failing, [=](Index f) { return f < fronts; })));
+  all.edges = std::max(all.edges, added.edges);
+  all.components = std::max(all.components, static_cast<Index>(std::ranges::count(touched, 1)));
+  return static_cast<Index>(failing.size());
 }
 
 double mean_edge_length(std::span<const Vec3> positions, const EdgeTable& edges, int threads) {
@@ -215,7 +229,7 @@ double mean_edge_length(std::span<const Vec3> positions, const EdgeTable& edges,
 }
 
 IntrinsicMesh build_intrinsic_mesh(std::span<const Vec3> positions, const CleanFaces& clean,
-                                   double unit, int threads, double strict) {
+                                   double unit, int threads, Strictness strictness) {
   IntrinsicMesh mesh;
   mesh.unit = unit;
   mesh.faces = clean.faces;
@@ -236,8 +250,7 @@ IntrinsicMesh build_intrinsic_mesh(std::span<const Vec3> positions, const CleanF
           }
         }
       });
-  const Mollification added = mollify(mesh, strict, threads);
-  if (strict > kBarelyStrict) mesh.mollified = added;
+  mollify(mesh, strictness, threads);
   return mesh;
 }
 

@@ -23,8 +23,7 @@ struct IntrinsicMesh {
   std::vector<std::array<double, 3>> lengths;  ///< F x 3, in units of `unit`
   std::vector<Side> twin;                      ///< 3F: the other side of the edge, or kNoSide
   double unit = 1.0;                           ///< length of 1 in model units: the mean edge length
-  /// What was added to lengths, in units of `unit`; for kBarelyStrict it is not worth a word.
-  Mollification mollified;
+  Mollification mollified;                     ///< what was added to lengths, in units of `unit`
   /// On the tufted cover, and empty elsewhere: for every face of the surface (they come first) the
   /// number of its back before flips, kNoIndex where its component has none.
   std::vector<Index> back;
@@ -44,26 +43,29 @@ struct IntrinsicMesh {
   }
 };
 
-/// By how much every triangle inequality is strict, relative to the longest side of the face, where
-/// matrices or fronts are to stand on it: triangles are 450 times as wide as high at most.
-inline constexpr double kStrict = 1e-5;
-/// The same before flips, which remove nearly all flat triangles: ten thousand roundings of a
-/// length, and triangles a million times as wide as high.
-inline constexpr double kBarelyStrict = 1e-12;
+/// What every triangle must be.
+enum class Strictness {
+  /// 1e-5 of its longest side high. That is enough for flips, which remove most flat triangles, and
+  /// for fronts.
+  kHeights,
+  /// Every triangle inequality strict by 1e-5 of the longest side, for matrices: needles are as
+  /// wide, and other triangles, 450 times as wide as high at most, hundreds of times as high.
+  kInequalities
+};
 
-/// Lengthens edges until every triangle inequality is strict by `strict` of the face's longest side
-/// (the condition of Sharp, Crane 2020, section 4.5, where one length is added to all edges). Here
-/// only edges of faces that fail are lengthened, the shorter ones of the face, and those of
-/// neighbours that fail because of it: a degenerate face leaves no trace a few faces away. Where
-/// this has no end within a hundred rounds, the smallest common length that does it is
-/// added to all edges of the component.
+/// Lengthens edges until every triangle is as strict as that (Sharp, Crane 2020, section 4.5, where
+/// one length is added to all edges). Here only edges of faces that fail are lengthened, the
+/// shorter ones of the face, and those of neighbours that fail because of it: a degenerate face
+/// leaves no trace a few faces away. Where this has no end within a hundred rounds, the smallest
+/// common length that does it is added to all edges of the component. Adds to mesh.mollified, but
+/// for the backs of a tufted cover, which repeat it, and returns how many faces failed.
 ///
 /// Lengths are the same for all sides of an edge, before and after, in units of about their mean.
 /// Cost: O(F), and a few visits of each failing face.
-Mollification mollify(IntrinsicMesh& mesh, double strict, int threads = 1);
+Index mollify(IntrinsicMesh& mesh, Strictness strictness, int threads = 1);
 
-/// The lowest side of each side's edge (3F). Sides without twins are of one edge where they join
-/// the same vertices: at edges with three faces or more, and where two faces disagree in
+/// The lowest side of each side's edge (3F). Sides without other twins are of one edge where they
+/// join the same vertices: at edges with three faces or more, and where two faces disagree in
 /// orientation; flips leave these alone. Cost: O(F), and a sort of the sides without twins.
 std::vector<Side> first_sides(const IntrinsicMesh& mesh);
 
@@ -91,7 +93,8 @@ inline double safe_norm(const Vec3& v) {
 /// number of sides other than two, or whose faces disagree in orientation, get no twins. Cost:
 /// O(F).
 IntrinsicMesh build_intrinsic_mesh(std::span<const Vec3> positions, const CleanFaces& clean,
-                                   double unit, int threads = 1, double strict = kStrict);
+                                   double unit, int threads = 1,
+                                   Strictness strictness = Strictness::kInequalities);
 
 /// A triangle laid out in its own plane: corner 0 at the origin, corner 1 at (base, 0), corner 2
 /// at (x, height), height > 0.

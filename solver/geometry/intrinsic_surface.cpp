@@ -21,7 +21,8 @@ constexpr std::int64_t kMinFacesPerThread = 1 << 15;
 /// Vertices are inserted up to as many as there are, and so many more on small meshes.
 constexpr Index kFewInserted = 1000;
 
-void note_mollification(const IntrinsicMesh& intrinsic, std::vector<Warning>& warnings) {
+void note_mollification(const IntrinsicMesh& intrinsic, Strictness strictness,
+                        std::vector<Warning>& warnings) {
   const Mollification& mollified = intrinsic.mollified;
   if (mollified.most > 0) {
     warnings.push_back(
@@ -31,8 +32,8 @@ void note_mollification(const IntrinsicMesh& intrinsic, std::vector<Warning>& wa
          " lengthened in " +
          counted_text(static_cast<std::size_t>(mollified.components), "component", "components") +
          ", by up to " + rounded_text(mollified.most) +
-         " mean edge lengths; distances may be too long, by as much for each of them that is "
-         "crossed"});
+         " mean edge lengths; distances across such a face may be too long by up to " +
+         (strictness == Strictness::kHeights ? "1e-5" : "0.3 %") + " of its longest side"});
   }
 }
 
@@ -43,7 +44,11 @@ Result<void> flip_where_needed(IntrinsicSurface& surface, int threads, const Pro
   surface.delaunay = true;
   auto flips = flip_to_delaunay(surface.intrinsic, std::move(sides), progress);
   if (!flips) return flips.error();
-  surface.edits.insert(surface.edits.end(), flips->begin(), flips->end());
+  if (surface.edits.empty()) {
+    surface.edits = std::move(*flips);
+  } else {
+    surface.edits.insert(surface.edits.end(), flips->begin(), flips->end());
+  }
   return {};
 }
 
@@ -220,7 +225,7 @@ Result<IntrinsicSurface> build_intrinsic_surface(std::shared_ptr<const TriangleM
   if (!report(progress, "operators", 0.5)) return cancelled_error();
   const bool flips = rules.flip != FlipRule::kNever;
   out.intrinsic = build_intrinsic_mesh(positions, clean, unit_for(out.mean_edge, rules, earlier),
-                                       threads, flips ? kBarelyStrict : rules.strict);
+                                       threads, flips ? Strictness::kHeights : rules.strictness);
   const Index vertices = out.mesh->vertex_count();
   const std::vector<char> doubled = faces_to_double(clean, vertices, rules.cover);
   out.tufted = !doubled.empty();
@@ -229,22 +234,17 @@ Result<IntrinsicSurface> build_intrinsic_surface(std::shared_ptr<const TriangleM
   if (!report(progress, "operators", 0.75)) return cancelled_error();
   out.times.intrinsic = watch.lap();
   out.delaunay = rules.flip == FlipRule::kAlways;
-  if (flips) {
+  // Flips remove flat triangles but for some along the boundary; what is lengthened then may have
+  // to be flipped again.
+  constexpr int kMaxRounds = 3;
+  for (int round = 0; flips && round < kMaxRounds; ++round) {
     if (auto flipped = flip_where_needed(out, threads, part_of(progress, 0.75, 1.0)); !flipped) {
       return flipped.error();
     }
-  }
-  if (flips && rules.strict > kBarelyStrict) {
-    // Flips have removed flat triangles but for some along the boundary, and left needles.
-    out.intrinsic.mollified = mollify(out.intrinsic, rules.strict, threads);
-    if (out.intrinsic.mollified.faces > 0) {
-      if (auto again = flip_where_needed(out, threads, part_of(progress, 0.75, 1.0)); !again) {
-        return again.error();
-      }
-    }
+    if (mollify(out.intrinsic, rules.strictness, threads) == 0) break;
   }
   out.warnings = cleaning_notes(clean);
-  note_mollification(out.intrinsic, out.warnings);
+  note_mollification(out.intrinsic, rules.strictness, out.warnings);
   if (names_parts) {
     out.parts = clean.parts;
     measure_parts(out);

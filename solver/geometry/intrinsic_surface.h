@@ -33,9 +33,8 @@ struct SurfaceRules {
   bool parts = false;  ///< name connected parts; where it is refined they are named in any case
   /// Measure lengths in the unit of an earlier surface, where the mean edge is near it.
   bool same_unit = false;
-  /// Of every triangle inequality in the end, as mollify() has it: kStrict where matrices stand on
-  /// the surface; fronts need no more than kBarelyStrict.
-  double strict = kStrict;
+  /// Of the triangles in the end. Fronts want no more than kHeights.
+  Strictness strictness = Strictness::kInequalities;
 };
 
 /// What a surface keeps of the clean faces of its mesh, before flips. It says nothing of where

@@ -229,7 +229,8 @@ void inspect_edges(std::span<const Vec3> positions, const CleanFaces& clean, Mes
     report.longest_edge = std::max(report.longest_edge, length);
   }
   if (!(report.mean_edge_length > 0)) return;
-  const IntrinsicMesh intrinsic = build_intrinsic_mesh(positions, clean, report.mean_edge_length);
+  const IntrinsicMesh intrinsic =
+      build_intrinsic_mesh(positions, clean, report.mean_edge_length, 1, Strictness::kHeights);
   report.non_delaunay_edges = count_non_delaunay(intrinsic);
   report.mollified = intrinsic.mollified;
   report.mollified.most *= intrinsic.unit;

@@ -230,7 +230,7 @@ PolygonFans build_fans(const CellComplex& given, double unit, int threads) {
   builder.join_within_faces();
   builder.join_faces();
   if (std::ranges::any_of(out.mesh.lengths, is_flat_triangle)) {
-    (void)mollify(out.mesh, kBarelyStrict, threads);
+    mollify(out.mesh, Strictness::kHeights, threads);
   }
   return out;
 }

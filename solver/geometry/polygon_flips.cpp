@@ -79,7 +79,7 @@ class PolygonFlipper {
     auto flips = flip_bad_regions(mesh_, given_.vertices, std::move(sides), progress);
     if (!flips) return flips.error();
     edits_ = std::move(*flips);
-    if (mollify(mesh_, kStrict, threads_).faces > 0) {
+    if (mollify(mesh_, Strictness::kInequalities, threads_) > 0) {
       flips =
           flip_bad_regions(mesh_, given_.vertices, non_delaunay_sides(mesh_, threads_), progress);
       if (!flips) return flips.error();

@@ -204,7 +204,7 @@ Result<std::shared_ptr<const WaveSurface>> build_wave_surface(
   try {
     const ThreadCrew crew(threads);
     auto base = build_intrinsic_surface(
-        std::move(mesh), {.flip = FlipRule::kAlways, .strict = kBarelyStrict},
+        std::move(mesh), {.flip = FlipRule::kAlways, .strictness = Strictness::kHeights},
         part_of(progress, 0.0, 0.9), threads, earlier != nullptr ? &earlier->base : nullptr);
     if (!base) return base.error();
     auto triangulation = std::make_shared<IntrinsicSurface>(*std::move(base));

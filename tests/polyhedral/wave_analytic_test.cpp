@@ -61,12 +61,12 @@ const std::map<MethodKind, double> kRates = {{MethodKind::kWavefront, 1.5},
                                              {MethodKind::kWavefrontFine, 1.5},
                                              {MethodKind::kFastMarching, 0.3}};
 
-/// A strip of needles, down to 1e-8 as wide as long (below 1e-12 edges are lengthened): every wave
+/// A strip of needles, down to 2e-5 as wide as long (below 1e-5 edges are lengthened): every wave
 /// grazes the long edges, and only rounding is lost.
 TEST(WavesOverNeedles, AreExactWhereTheWaveIsRound) {
   constexpr Index kColumns = 300;
   constexpr double kRoundOff = 1e-9;
-  for (const double width : {1e-2, 1e-3, 1e-4, 1e-6, 1e-8}) {
+  for (const double width : {1e-2, 1e-3, 1e-4, 2e-5}) {
     const MeshPtr mesh = finish(plane_grid(kColumns, 1, kColumns * width, 1));
     const auto& positions = mesh->positions();
     for (const MethodKind kind : kRoundWaves) {

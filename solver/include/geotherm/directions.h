@@ -102,8 +102,8 @@ struct SignedDistance {
   std::vector<Warning> warnings;     ///< one sentence each
 };
 
-/// The directions of a mesh. Immutable; several threads may ask at once. Edges of degenerate faces
-/// are as long as mollification makes them (1e-5 of the longest side).
+/// The directions of a mesh. Immutable; several threads may ask at once. Faces are
+/// at least 1e-5 of their longest side high, for which edges of degenerate ones are lengthened.
 class Directions {
  public:
   /// Errors: kBadInput (no face with area), kOutOfMemory, kCancelled. Cost: O(F).
