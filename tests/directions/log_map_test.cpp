@@ -238,7 +238,8 @@ TEST(LogMap, ByWavesSaysWhereItHangsOnWhichPathIsTheShorter) {
   const Draft flat = plane_grid(120, 120, 1, 1);
   Draft hilly = flat;
   for (Vec3& p : hilly.positions) {
-    p.z() = 0.05 * std::sin(12 * kPi * p.x() + 1) * std::sin(12 * kPi * p.y() + 2);
+    p.z() = 0.05 * std::sin(12 * std::numbers::pi * p.x() + 1) *
+            std::sin(12 * std::numbers::pi * p.y() + 2);
   }
   const MeshPtr hills = finish(hilly), plane = finish(flat);
   const Index source = grid_vertex(120, 10, 60);
