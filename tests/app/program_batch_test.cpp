@@ -120,6 +120,8 @@ TEST_F(BatchProgram, WhatIsDoneIsDoneOnceUntilModelOrOptionsChange) {
   EXPECT_EQ(done(others), 2);
   EXPECT_EQ(manifest().size(), 2U);
   // A report and a line of another program are not of this one.
+  fs::last_write_time(folder.path("shapes/b.obj"),
+                      fs::file_time_type::clock::now() - std::chrono::hours(1));
   folder.write("out/a.json", R"({"program": "other", "version": 3})");
   std::ofstream(folder.path("out/manifest.jsonl"), std::ios::app)
       << R"({"model": 7, "status": 1})"

@@ -35,8 +35,8 @@ class WaveMethod : public DistanceMethod {
 
  protected:
   struct State;
-  explicit WaveMethod(std::unique_ptr<const State> state);
-  std::unique_ptr<const State> state_;
+  explicit WaveMethod(std::unique_ptr<const State> state);  ///< for the three alone
+  std::unique_ptr<const State> state_;                      ///< surface, threads, timing; never null
 };
 
 /// Near-exact distance by waves over the edges of the intrinsic Delaunay triangulation, each fitted
