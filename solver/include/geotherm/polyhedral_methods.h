@@ -36,7 +36,7 @@ class WaveMethod : public DistanceMethod {
  protected:
   struct State;
   explicit WaveMethod(std::unique_ptr<const State> state);  ///< for the three alone
-  std::unique_ptr<const State> state_;                      ///< surface, threads, timing; never null
+  std::unique_ptr<const State> state_;                      ///< what is the same in the three
 };
 
 /// Near-exact distance by waves over the edges of the intrinsic Delaunay triangulation, each fitted
