@@ -152,6 +152,8 @@ Json devices_json(const std::vector<DrawingDevice>& devices) {
 }  // namespace
 
 Result<CommandOutput> run_devices(const ListArguments& arguments, Drawing& drawing) {
+  Outputs outputs;
+  if (auto fits = expect_report(arguments.json, outputs); !fits) return fits.error();
   const auto devices = drawing.devices();
   if (!devices) return devices.error();
   if (devices->empty()) {

@@ -89,10 +89,11 @@ std::vector<std::string> typed_sources(const SourceArguments& arguments);
 /// One point that an option names. Errors: kBadInput.
 Result<Source> single_point(const std::string& text, const std::string& option);
 
-/// The number that an option is given, a whole one in digits or as 2e6. `what`: "number of frames".
-/// Errors: kBadInput, with the option's name and the range, or with `hint`.
+/// The whole number that an option is given, also as 2e6. `what`: "number of frames". Errors:
+/// kBadInput, with the option's name and the range.
 Result<Index> whole_in(const std::string& option, const std::string& text, const std::string& what,
                        Index least, Index most = std::numeric_limits<Index>::max());
+/// The number that an option is given. Errors: kBadInput, with the option's name, and `hint`.
 Result<double> real_in(const std::string& option, const std::string& text, const std::string& what,
                        const std::string& hint = {},
                        double least = std::numeric_limits<double>::lowest(),

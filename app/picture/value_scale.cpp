@@ -124,9 +124,12 @@ void set_lines(const PictureData& data, const PictureSettings& settings, bool pa
   if (!(data.is_field || data.is_signed) || scale.spacing == 0) return;
   // Multiples below 0 are lines like the others, and so is 0, but of a difference, which may be 0
   // on a whole region: they are named one by one.
+  if (width > kMaxLineValues * scale.spacing) {
+    if (data.is_field) scale.spacing = 0;  // of a difference those above 0 are drawn
+    return;
+  }
   const double first = std::floor(scale.min / scale.spacing) + 1;
-  if (width > kMaxLineValues * scale.spacing) scale.spacing = 0;
-  for (double i = first; scale.spacing > 0 && i * scale.spacing < scale.max; ++i) {
+  for (double i = first; i * scale.spacing < scale.max; ++i) {
     if (i != 0 || data.is_field) scale.levels.push_back(i * scale.spacing);
   }
 }

@@ -251,7 +251,9 @@ Result<void> WindowLoop::draw_frame(Detail detail) {
 Result<void> WindowLoop::after_failure(const Error& error) {
   if (error.code == ErrorCode::kOutOfMemory) {
     // What was drawn before is still there. It is said once of what was to be drawn.
-    Wanted now{session_->explored().version, session_->state().picture};
+    if (session_->state().timeline.playing) (void)session_->submit(command::Play{false});
+    const auto& model = session_->explored().model;
+    Wanted now{model ? model->model.name : std::string(), session_->state().picture};
     if (no_memory_for_ == now) return {};
     no_memory_for_ = std::move(now);
     session_->say(error);

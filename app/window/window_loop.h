@@ -4,6 +4,7 @@
 #include <imgui.h>
 
 #include <chrono>
+#include <cmath>
 #include <cstdint>
 #include <deque>
 #include <memory>
@@ -55,9 +56,11 @@ class FrameClock {
 };
 
 /// The scale of panels in ImGui's points, on a monitor that asks for `monitor` times as many pixels
-/// as usual: on Wayland points have these pixels already, on X11 a point is a pixel.
+/// as usual: on Wayland points have these pixels already, on X11 a point is a pixel. Of a window
+/// `pixels_per_point` is known but for a pixel of its width, and scales are multiples of 1/20.
 inline float panel_scale(float monitor, float pixels_per_point) {
-  return monitor / pixels_per_point;
+  constexpr float kSteps = 20;
+  return monitor / (std::round(kSteps * pixels_per_point) / kSteps);
 }
 
 /// Dear ImGui's context, current while it lives.
@@ -76,8 +79,8 @@ class WindowLoop {
   static Result<std::unique_ptr<WindowLoop>> open(const ViewerStart& start);
   ~WindowLoop();
 
-  /// Until the user quits. Errors: kNoDevice (lost, and it did not come back), and those of the
-  /// commands it starts with.
+  /// Until the user quits. Errors: those of a device that was lost and did not come back, and of
+  /// the commands it starts with.
   Result<void> run();
 
  private:
@@ -117,7 +120,7 @@ class WindowLoop {
   FrameClock clock_;
   std::optional<std::chrono::steady_clock::time_point> last_loss_;
   struct Wanted {
-    std::uint64_t version = 0;  ///< of Explored
+    std::string model;  ///< its name: frames of a sequence have that of the sequence
     PictureDataSettings settings;
     bool operator==(const Wanted&) const = default;
   };

@@ -3,6 +3,8 @@
 
 #include <cstdlib>
 #include <fstream>
+#include <utility>
+#include <vector>
 
 #include "tests/ui/driver.h"
 #include "ui/key_map.h"
@@ -269,11 +271,15 @@ TEST(FolderListing, UnderstandsTypedPaths) {
 }
 
 TEST(FileTasks, AreThoseOfTheActionsThatAskForAFile) {
-  for (const Action action : {Action::kOpenModel, Action::kOpenSession, Action::kOpenSequence,
-                              Action::kSaveSession, Action::kSavePicture, Action::kSaveDistances,
-                              Action::kSaveFigures, Action::kSaveMesh, Action::kSaveLog}) {
+  const std::vector<std::pair<Action, std::string>> sent = {
+      {Action::kOpenModel, "open a"},           {Action::kOpenSession, "run a"},
+      {Action::kOpenSequence, "sequence a"},    {Action::kSaveSession, "save session a"},
+      {Action::kSavePicture, "save picture a"}, {Action::kSaveDistances, "save distances a"},
+      {Action::kSaveFigures, "save figures a"}, {Action::kSaveMesh, "save mesh a"},
+      {Action::kSaveLog, "save log a"}};
+  for (const auto& [action, text] : sent) {
     ASSERT_NE(file_task(action), nullptr);
-    EXPECT_EQ(file_task(action)->action, action);
+    EXPECT_EQ(app::to_text(file_task(action)->make("a")), text);
   }
   EXPECT_EQ(file_task(Action::kQuit), nullptr);
   EXPECT_EQ(suggested_name("/a/b.c/gear.stl", *file_task(Action::kSavePicture)), "gear.png");

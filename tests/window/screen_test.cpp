@@ -18,6 +18,7 @@ TEST(PanelScale, IsTakenOnceWhereAPointHasItsPixels) {
   EXPECT_EQ(app::panel_scale(2, 1), 2);  // X11
   EXPECT_EQ(app::panel_scale(2, 2), 1);  // Wayland
   EXPECT_EQ(app::panel_scale(1, 1), 1);
+  EXPECT_EQ(app::panel_scale(1.5F, 1501.0F / 1001), 1);  // pixels are whole
 }
 
 class Screen : public GpuTest {
