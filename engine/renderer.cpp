@@ -187,21 +187,23 @@ Result<void> Renderer::set_surface(const SurfaceGeometry& geometry) {
 Result<void> Renderer::move_surface(std::span<const glm::vec3> positions,
                                     std::span<const Openness> openness) {
   assert(positions.size() == state_->positions.size());
-  return guarded("moving the model", [&] {
-    State& s = *state_;
+  State& s = *state_;
+  auto moved = guarded("moving the model", [&] {
     s.recorder.use_coarse(false);
     const bool known = s.moving.has_value();
     if (!known) s.moving.emplace(SurfaceGeometry{positions, s.faces, s.solid, openness});
-    s.openness.assign(openness.begin(), openness.end());
-    if (!known || !s.moving->move(positions, openness)) {
+    if (known && s.moving->move(positions, openness)) {
+      s.recorder.set_vertices(s.moving->mesh().vertices);
+      s.positions.assign(positions.begin(), positions.end());
+      s.places.reset();
+      s.coarse.reset();
+    } else {
       s.draw(s.moving->mesh(), {positions.begin(), positions.end()});
-      return;
     }
-    s.recorder.set_vertices(s.moving->mesh().vertices);
-    s.positions.assign(positions.begin(), positions.end());
-    s.places.reset();
-    s.coarse.reset();
+    s.openness.assign(openness.begin(), openness.end());
   });
+  if (!moved) s.moving.reset();  // its vertices are not those that are drawn
+  return moved;
 }
 
 Result<void> Renderer::set_openness(std::span<const Openness> openness) {

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include "engine/vulkan/device_state.h"
+#include "engine/vulkan/vulkan.h"
 #include "tests/engine/measure.h"
 #include "tests/engine/stage.h"
 
@@ -10,6 +12,17 @@ using namespace geotherm::engine;
 constexpr std::uint64_t kMiB = 1U << 20U;
 
 class DeviceMemory : public GpuTest {};
+
+/// Takes the rest of a device's memory as long as it lives: next to nothing is left.
+std::vector<std::unique_ptr<OffscreenTarget>> fill_memory(const Device& device) {
+  std::vector<std::unique_ptr<OffscreenTarget>> targets;
+  for (const int side : {512, 128, 32}) {
+    while (auto target = OffscreenTarget::build(device, {side, side})) {
+      targets.push_back(*std::move(target));
+    }
+  }
+  return targets;
+}
 
 TEST_F(DeviceMemory, ThatEndsIsAnErrorWithFiguresAndLeavesTheModel) {
   const Device small = must(Device::open(validated(4 * kMiB)));
@@ -47,6 +60,40 @@ TEST_F(DeviceMemory, ThatEndsIsAnErrorWithFiguresAndLeavesTheModel) {
   EXPECT_EQ(small.memory_used(), 0U);
   EXPECT_LE(small.peak_memory(), 4 * kMiB);
   for (const std::string& message : small.validation_messages()) ADD_FAILURE() << message;
+}
+
+TEST_F(DeviceMemory, ThatEndsWhileTheModelMovesLeavesItWhereItWas) {
+  const Device small = must(Device::open(validated(8 * kMiB)));
+  for (const bool has_moved : {false, true}) {
+    Stage stage(small, plane_model(100, 100));
+    stage.scene.light = Light::kThreePoint;
+    if (has_moved) must(stage.renderer.move_surface(stage.model.positions));
+    const Image before = stage.draw();
+    Model folded = stage.model;  // along an edge, which becomes a crease and has vertices twice
+    for (glm::vec3& p : folded.positions) p = {std::min(p.x, 0.0F), p.y, std::min(-p.x, 0.0F)};
+    auto rest = fill_memory(small);
+    for (int i = 0; i < 2; ++i) {
+      const Result<void> moved = stage.renderer.move_surface(folded.positions);
+      ASSERT_FALSE(moved) << has_moved << i;
+      EXPECT_EQ(moved.error().code, ErrorCode::kOutOfMemory);
+    }
+    rest.clear();
+    EXPECT_EQ(stage.draw().pixels, before.pixels);
+    must(stage.renderer.move_surface(folded.positions));
+    Stage other(device(), folded);
+    other.scene = stage.scene;
+    EXPECT_EQ(stage.draw().pixels, other.draw().pixels);
+    EXPECT_NE(stage.draw().pixels, before.pixels);
+  }
+  for (const std::string& message : small.validation_messages()) ADD_FAILURE() << message;
+}
+
+TEST_F(DeviceMemory, IsNotWrittenBeyondABuffer) {
+  const auto state = device().state();
+  const Buffer buffer =
+      state->upload(std::vector<std::byte>(64), vk::BufferUsageFlagBits::eVertexBuffer);
+  state->update(buffer, std::vector<std::byte>(64));
+  EXPECT_THROW(state->update(buffer, std::vector<std::byte>(65)), Failure);
 }
 
 TEST_F(DeviceMemory, ThatTheHostCannotSeeIsFilledThroughCopies) {
