@@ -88,6 +88,62 @@ TEST_F(DeviceMemory, ThatEndsWhileTheModelMovesLeavesItWhereItWas) {
   for (const std::string& message : small.validation_messages()) ADD_FAILURE() << message;
 }
 
+TEST_F(DeviceMemory, ThatEndsForLinesIsAnErrorUntilItSuffices) {
+  const Device small = must(Device::open(validated(8 * kMiB)));
+  {
+    Stage stage(small, plane_model(2, 2));
+    const auto target = must(OffscreenTarget::build(small, glm::ivec2(kSmallPicture)));
+    must(stage.renderer.render(*target, stage.scene));
+    std::vector<glm::vec3> zigzag;
+    for (int i = 0; i < 1000; ++i) {
+      zigzag.emplace_back(-0.7F + 0.0014F * static_cast<float>(i), i % 2 == 0 ? -0.3F : 0.3F, 0.1F);
+    }
+    const Polyline line{zigzag, {0.9F, 0.1F, 0.1F}};
+    must(stage.renderer.set_lines({&line, 1}));
+    auto rest = fill_memory(small);
+    for (int i = 0; i < 2; ++i) {
+      const Result<void> drawn = stage.renderer.render(*target, stage.scene);
+      ASSERT_FALSE(drawn) << i;
+      EXPECT_EQ(drawn.error().code, ErrorCode::kOutOfMemory);
+    }
+    stage.scene.lines.visible = false;
+    must(stage.renderer.render(*target, stage.scene));
+    stage.scene.lines.visible = true;
+    rest.clear();
+    Stage other(device(), stage.model);
+    must(other.renderer.set_lines({&line, 1}));
+    EXPECT_EQ(stage.draw().pixels, other.draw().pixels);
+  }
+  for (const std::string& message : small.validation_messages()) ADD_FAILURE() << message;
+}
+
+TEST_F(DeviceMemory, ThatEndsForTheCoarseSurfaceHasTheModelDrawn) {
+  const Device small = must(Device::open(validated(32 * kMiB)));
+  {
+    Stage stage(small, model_of(torus(400, 200, 0.4)));
+    stage.scene.light = Light::kThreePoint;
+    ASSERT_TRUE(stage.renderer.has_coarse());
+    const glm::ivec2 extent(kSmallPicture);
+    const auto target = must(OffscreenTarget::build(small, extent));
+    const auto draw = [&](SceneUse use) {
+      must(stage.renderer.render(*target, stage.scene, {}, nullptr, use));
+      Image image{extent.x, extent.y, {}};
+      image.pixels.resize(std::size_t{4} * extent.x * extent.y);
+      target->read(image, {0, 0}, extent);
+      return image.pixels;
+    };
+    const auto full = draw(SceneUse::kKeep);
+    auto rest = fill_memory(small);
+    EXPECT_EQ(draw(SceneUse::kAgain), full);
+    stage.renderer.set_coarse(true);
+    EXPECT_EQ(draw(SceneUse::kKeep), full);
+    rest.clear();
+    must(stage.renderer.set_surface(stage.model.geometry()));
+    EXPECT_NE(draw(SceneUse::kKeep), full) << "another model is tried again";
+  }
+  for (const std::string& message : small.validation_messages()) ADD_FAILURE() << message;
+}
+
 TEST_F(DeviceMemory, IsNotWrittenBeyondABuffer) {
   const auto state = device().state();
   const Buffer buffer =
