@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <string>
 
 #include "engine/vulkan/device_state.h"
 #include "engine/vulkan/vulkan.h"
@@ -69,6 +70,11 @@ Buffer Device::State::upload(std::span<const std::byte> bytes, vk::BufferUsageFl
 
 void Device::State::update(const Buffer& buffer, std::span<const std::byte> bytes) const {
   if (bytes.empty()) return;
+  if (bytes.size() > buffer.bytes) {
+    throw Failure({ErrorCode::kBadInput, "a buffer of " + std::to_string(buffer.bytes) +
+                                             " bytes has no room for " +
+                                             std::to_string(bytes.size())});
+  }
   if (buffer.memory.visible()) {
     std::memcpy(buffer.memory.mapped(), bytes.data(), bytes.size());
     return;

@@ -42,6 +42,7 @@ struct Renderer::State {
   std::optional<ArrowPlaces> places;     ///< made when arrows first come
   std::vector<glm::vec3> primary, secondary;
   LineSet lines;
+  bool lines_old = false;  ///< the device has others
   std::vector<float> face_values;
 
   // The surface that is drawn while the picture moves.
@@ -52,6 +53,7 @@ struct Renderer::State {
     bool old = true;  ///< values have been set since
   };
   std::optional<Coarse> coarse;
+  bool no_coarse = false;  ///< the device had no memory for that of this model
 
   /// Draws this mesh, of these positions; what was set on another is gone. Throws, and leaves then
   /// what was there.
@@ -69,6 +71,7 @@ struct Renderer::State {
     face_values.clear();
     lines.set({});
     coarse.reset();
+    no_coarse = false;
   }
 
   /// Draws the mesh that is drawn in this light.
@@ -94,7 +97,7 @@ struct Renderer::State {
   }
 
   void make_coarse() {
-    if (coarse || faces.size() < kManyFaces) return;
+    if (coarse) return;
     Coarse made;
     made.surface = coarse_surface({positions, faces, solid, openness}, kCoarseFaces);
     made.mesh =
@@ -105,12 +108,23 @@ struct Renderer::State {
     coarse = std::move(made);
   }
 
-  /// Brings the coarse surface up to date and draws it from now on, where it is wanted.
-  void choose_surface() {
-    if (!coarse_wanted || faces.size() < kManyFaces) return recorder.use_coarse(false);
-    make_coarse();
+  /// Draws the coarse surface from now on where it is wanted and the device has the memory.
+  void choose_surface(SceneUse use) {
+    recorder.use_coarse(false);
+    const bool early = use == SceneUse::kAgain;  // nobody waits for a frame of panels alone
+    if (no_coarse || faces.size() < kManyFaces || !(coarse_wanted || early)) return;
+    const Result<void> ready = guarded("drawing", [&] {
+      make_coarse();
+      if (coarse_wanted) update_coarse();
+    });
+    recorder.use_coarse(coarse_wanted && ready);
+    no_coarse = !ready;
+    if (!ready && ready.error().code != ErrorCode::kOutOfMemory) throw Failure(ready.error());
+  }
+
+  void update_coarse() {
+    if (!coarse->old) return;
     recorder.use_coarse(true);
-    if (!std::exchange(coarse->old, false)) return;
     const CoarseSurface& surface = coarse->surface;
     const std::vector<float> means = surface.means(values());
     std::vector<float> drawn;
@@ -130,6 +144,7 @@ struct Renderer::State {
     } else {
       recorder.set_face_values(corners);
     }
+    coarse->old = false;
   }
 
   void values_changed() {
@@ -187,21 +202,23 @@ Result<void> Renderer::set_surface(const SurfaceGeometry& geometry) {
 Result<void> Renderer::move_surface(std::span<const glm::vec3> positions,
                                     std::span<const Openness> openness) {
   assert(positions.size() == state_->positions.size());
-  return guarded("moving the model", [&] {
-    State& s = *state_;
+  State& s = *state_;
+  auto moved = guarded("moving the model", [&] {
     s.recorder.use_coarse(false);
     const bool known = s.moving.has_value();
     if (!known) s.moving.emplace(SurfaceGeometry{positions, s.faces, s.solid, openness});
-    s.openness.assign(openness.begin(), openness.end());
-    if (!known || !s.moving->move(positions, openness)) {
+    if (known && s.moving->move(positions, openness)) {
+      s.recorder.set_vertices(s.moving->mesh().vertices);
+      s.positions.assign(positions.begin(), positions.end());
+      s.places.reset();
+      s.coarse.reset();
+    } else {
       s.draw(s.moving->mesh(), {positions.begin(), positions.end()});
-      return;
     }
-    s.recorder.set_vertices(s.moving->mesh().vertices);
-    s.positions.assign(positions.begin(), positions.end());
-    s.places.reset();
-    s.coarse.reset();
+    s.openness.assign(openness.begin(), openness.end());
   });
+  if (!moved) s.moving.reset();  // its vertices are not those that are drawn
+  return moved;
 }
 
 Result<void> Renderer::set_openness(std::span<const Openness> openness) {
@@ -300,9 +317,12 @@ Result<void> Renderer::render(Target& target, const Scene& scene, const Overlay&
       arrows = select_arrows({{s.positions, s.faces, s.solid}, *s.places}, scene.camera,
                              scene.arrows, scene.pixel_scale, s.primary, s.secondary);
     }
-    if (s.lines.fit(scene.camera)) s.recorder.set_lines(s.lines);
-    if (use == SceneUse::kAgain) s.make_coarse();  // nobody waits for a frame of panels alone
-    s.choose_surface();
+    if (s.lines.fit(scene.camera)) s.lines_old = true;
+    if (s.lines_old && scene.lines.visible) {
+      s.recorder.set_lines(s.lines);
+      s.lines_old = false;
+    }
+    s.choose_surface(use);
     TargetFrame frame;
     s.recorder.prepare(arrows, overlay, panels);
     if (auto begun = target.begin(frame); !begun) return begun;

@@ -96,8 +96,9 @@ class Renderer {
   Result<void> render(Target& target, const Scene& scene, const Overlay& overlay = {},
                       const PanelDraw* panels = nullptr, SceneUse use = SceneUse::kOnce);
 
-  /// Whether the next frames draw a surface of many faces by one of few that looks like it. Cost:
-  /// the first time after the surface has changed, that of coarse_surface().
+  /// Whether the next frames draw a surface of many faces by one of few that looks like it, where
+  /// the device has memory for it. Cost: the first time after the surface has changed, that of
+  /// coarse_surface().
   void set_coarse(bool coarse);
   /// The surface has so many faces that there is a coarse one.
   bool has_coarse() const;

@@ -96,6 +96,7 @@ Result<void> SceneScreen::upload(const Explored& explored, const Uploaded& now) 
     cut_.reset();
     positions_ = std::move(positions);
     uploaded_.reset();
+    seen_.reset();
     kept_.reset();
   }
   if (uploaded_ == now) return {};
@@ -104,6 +105,8 @@ Result<void> SceneScreen::upload(const Explored& explored, const Uploaded& now) 
   set_explored(data_, explored, now.shown, now.settings.view);
   if (auto done = upload_data(now.settings); !done) {
     data_ = *base_;  // of the answer only a part may be there: the model is drawn without
+    seen_.reset();
+    kept_.reset();
     return done;
   }
   uploaded_ = now;
@@ -175,15 +178,21 @@ Result<void> SceneScreen::update(const Session& session, const PictureArea& area
   area_ = area;
   const auto done = update_data(session);
   if (!done && !refused_) return done;
-  const PictureSettings settings = area.shown(session.state().picture);
+  PictureSettings settings = area.shown(session.state().picture);
+  if (!done && uploaded_) {  // what is there is laid out as what it was uploaded for
+    PictureDataSettings& of_data = settings;
+    of_data = uploaded_->settings;
+  }
   samples_ = settings.samples;
   Seen now{uploaded_.value_or(Uploaded()), settings, area, window_extent()};
   if (seen_ == now) return done;
   seen_ = std::move(now);
-  if (done || !uploaded_) {
-    update_legend(settings);
-    scene_ = scene_of(data_, settings, picture_scale(data_, settings));
-    scene_.surface.visible = has_model();
+  update_legend(settings);
+  scene_ = scene_of(data_, settings, picture_scale(data_, settings));
+  scene_.surface.visible = has_model();
+  if (!uploaded_) {  // what lies on the surface may be of an earlier answer
+    scene_.lines.visible = scene_.markers.visible = false;
+    scene_.arrows.primary = scene_.arrows.secondary = false;
   }
   scene_.camera = camera_of(data_, settings.camera, positions_, area.extent, insets_);
   if (!has_model()) legend_ = {};
@@ -206,6 +215,12 @@ Result<void> SceneScreen::draw(const engine::PanelDraw& panels, Detail detail) {
   }
   if (drew_scene_) kept_.reset();
   auto drawn = renderer_.render(*target, scene_, legend_.overlay, &panels, use);
+  if (!drawn && drawn.error().code == ErrorCode::kOutOfMemory) {
+    engine::Scene rest = scene_;  // with the panels, where the error is said
+    rest.lines.visible = false;
+    [[maybe_unused]] const auto again =
+        renderer_.render(*target, rest, legend_.overlay, &panels, use);
+  }
   if (drawn && drew_scene_) {
     kept_ = seen_;
     kept_detail_ = detail;

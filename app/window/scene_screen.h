@@ -8,6 +8,7 @@
 
 #include "app/picture/cut_picture.h"
 #include "app/picture/drawing.h"
+#include "app/session/explored.h"
 #include "app/session/session.h"
 #include "engine/overlay/overlay.h"
 #include "engine/renderer.h"
@@ -54,11 +55,13 @@ class SceneScreen {
   Result<void> set_panel_font(const engine::PanelFont& font);
 
   /// Brings data and camera up to date with the session, for a picture of this size. Where the
-  /// device's memory ends, what was there before stays and is seen by the camera of now; it is not
+  /// device's memory ends for the surface, the model that was there before stays; where it ends for
+  /// the answer, the model is drawn without. Both are seen by the camera of now, and it is not
   /// tried again before something else is to be uploaded. Cost: what has changed since the last
   /// call.
   Result<void> update(const Session& session, const PictureArea& area);
-  /// A scene that was drawn before, as well or better, is shown again.
+  /// A scene that was drawn before, as well or better, is shown again. Where the device's memory
+  /// ends for lines, all else is drawn, and that is the error.
   Result<void> draw(const engine::PanelDraw& panels, Detail detail);
   /// Whether the last draw() has drawn the scene and not only the panels over it.
   bool drew_scene() const { return drew_scene_; }
@@ -89,6 +92,8 @@ class SceneScreen {
   DrawingDevice device() const;
   std::vector<std::string> validation_messages() const;
   bool has_model() const { return base_ != nullptr; }
+  /// False: the device had no memory for the surface of this model, and what is drawn is another.
+  bool has_surface_of(const ExploredModel& model) const { return !refused_ || base_ == model.base; }
 
  private:
   SceneScreen(engine::Device device, engine::Renderer renderer);
@@ -133,7 +138,7 @@ class SceneScreen {
 
   /// What the scene that is kept was drawn of.
   struct Seen {
-    Uploaded uploaded;
+    Uploaded uploaded;  ///< nothing: a model without answer
     PictureSettings settings;
     PictureArea area;
     glm::ivec2 window{0, 0};

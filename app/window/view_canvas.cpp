@@ -48,6 +48,7 @@ Vec3 ViewCanvas::in_model(const Vec3& scene) const {
 std::optional<SurfacePoint> ViewCanvas::surface_at(float x, float y) const {
   const auto& model = explored_.model;
   if (!model || !model->rays || !screen_.has_model()) return std::nullopt;
+  if (!screen_.has_surface_of(*model)) return std::nullopt;
   Ray ray = ray_at(x, y);
   if (const CutPicture* cut = screen_.cut()) {
     const auto front = screen_.hit_cut(ray.origin, ray.direction);
@@ -64,6 +65,7 @@ std::optional<SurfacePoint> ViewCanvas::surface_at(float x, float y) const {
 std::optional<ui::InsidePoint> ViewCanvas::inside_at(float x, float y) const {
   const CutPicture* cut = screen_.cut();
   if (cut == nullptr || !explored_.model) return std::nullopt;
+  if (!screen_.has_surface_of(*explored_.model)) return std::nullopt;
   const Ray ray = ray_at(x, y);
   const auto hit = screen_.hit_cut(ray.origin, ray.direction);
   if (!hit) return std::nullopt;
@@ -82,6 +84,7 @@ std::optional<ui::InsidePoint> ViewCanvas::inside_at(float x, float y) const {
 }
 
 std::optional<std::array<float, 2>> ViewCanvas::place_of(const Vec3& point) const {
+  if (explored_.model && !screen_.has_surface_of(*explored_.model)) return std::nullopt;
   const engine::Camera& camera = screen_.camera();
   const PictureData& data = screen_.data();
   const Vec3 p = (point - data.centre) / data.model_per_scene;

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include "engine/vulkan/device_state.h"
+#include "engine/vulkan/vulkan.h"
 #include "tests/engine/measure.h"
 #include "tests/engine/stage.h"
 
@@ -10,6 +12,17 @@ using namespace geotherm::engine;
 constexpr std::uint64_t kMiB = 1U << 20U;
 
 class DeviceMemory : public GpuTest {};
+
+/// Takes the rest of a device's memory as long as it lives: next to nothing is left.
+std::vector<std::unique_ptr<OffscreenTarget>> fill_memory(const Device& device) {
+  std::vector<std::unique_ptr<OffscreenTarget>> targets;
+  for (const int side : {512, 128, 32}) {
+    while (auto target = OffscreenTarget::build(device, {side, side})) {
+      targets.push_back(*std::move(target));
+    }
+  }
+  return targets;
+}
 
 TEST_F(DeviceMemory, ThatEndsIsAnErrorWithFiguresAndLeavesTheModel) {
   const Device small = must(Device::open(validated(4 * kMiB)));
@@ -47,6 +60,96 @@ TEST_F(DeviceMemory, ThatEndsIsAnErrorWithFiguresAndLeavesTheModel) {
   EXPECT_EQ(small.memory_used(), 0U);
   EXPECT_LE(small.peak_memory(), 4 * kMiB);
   for (const std::string& message : small.validation_messages()) ADD_FAILURE() << message;
+}
+
+TEST_F(DeviceMemory, ThatEndsWhileTheModelMovesLeavesItWhereItWas) {
+  const Device small = must(Device::open(validated(8 * kMiB)));
+  for (const bool has_moved : {false, true}) {
+    Stage stage(small, plane_model(100, 100));
+    stage.scene.light = Light::kThreePoint;
+    if (has_moved) must(stage.renderer.move_surface(stage.model.positions));
+    const Image before = stage.draw();
+    Model folded = stage.model;  // along an edge, which becomes a crease and has vertices twice
+    for (glm::vec3& p : folded.positions) p = {std::min(p.x, 0.0F), p.y, std::min(-p.x, 0.0F)};
+    auto rest = fill_memory(small);
+    for (int i = 0; i < 2; ++i) {
+      const Result<void> moved = stage.renderer.move_surface(folded.positions);
+      ASSERT_FALSE(moved) << has_moved << i;
+      EXPECT_EQ(moved.error().code, ErrorCode::kOutOfMemory);
+    }
+    rest.clear();
+    EXPECT_EQ(stage.draw().pixels, before.pixels);
+    must(stage.renderer.move_surface(folded.positions));
+    Stage other(device(), folded);
+    other.scene = stage.scene;
+    EXPECT_EQ(stage.draw().pixels, other.draw().pixels);
+    EXPECT_NE(stage.draw().pixels, before.pixels);
+  }
+  for (const std::string& message : small.validation_messages()) ADD_FAILURE() << message;
+}
+
+TEST_F(DeviceMemory, ThatEndsForLinesIsAnErrorUntilItSuffices) {
+  const Device small = must(Device::open(validated(8 * kMiB)));
+  {
+    Stage stage(small, plane_model(2, 2));
+    const auto target = must(OffscreenTarget::build(small, glm::ivec2(kSmallPicture)));
+    must(stage.renderer.render(*target, stage.scene));
+    std::vector<glm::vec3> zigzag;
+    for (int i = 0; i < 1000; ++i) {
+      zigzag.emplace_back(-0.7F + 0.0014F * static_cast<float>(i), i % 2 == 0 ? -0.3F : 0.3F, 0.1F);
+    }
+    const Polyline line{zigzag, {0.9F, 0.1F, 0.1F}};
+    must(stage.renderer.set_lines({&line, 1}));
+    auto rest = fill_memory(small);
+    for (int i = 0; i < 2; ++i) {
+      const Result<void> drawn = stage.renderer.render(*target, stage.scene);
+      ASSERT_FALSE(drawn) << i;
+      EXPECT_EQ(drawn.error().code, ErrorCode::kOutOfMemory);
+    }
+    stage.scene.lines.visible = false;
+    must(stage.renderer.render(*target, stage.scene));
+    stage.scene.lines.visible = true;
+    rest.clear();
+    Stage other(device(), stage.model);
+    must(other.renderer.set_lines({&line, 1}));
+    EXPECT_EQ(stage.draw().pixels, other.draw().pixels);
+  }
+  for (const std::string& message : small.validation_messages()) ADD_FAILURE() << message;
+}
+
+TEST_F(DeviceMemory, ThatEndsForTheCoarseSurfaceHasTheModelDrawn) {
+  const Device small = must(Device::open(validated(32 * kMiB)));
+  {
+    Stage stage(small, model_of(torus(400, 200, 0.4)));
+    stage.scene.light = Light::kThreePoint;
+    ASSERT_TRUE(stage.renderer.has_coarse());
+    const glm::ivec2 extent(kSmallPicture);
+    const auto target = must(OffscreenTarget::build(small, extent));
+    const auto draw = [&](SceneUse use) {
+      must(stage.renderer.render(*target, stage.scene, {}, nullptr, use));
+      Image image{extent.x, extent.y, {}};
+      image.pixels.resize(std::size_t{4} * extent.x * extent.y);
+      target->read(image, {0, 0}, extent);
+      return image.pixels;
+    };
+    const auto full = draw(SceneUse::kKeep);
+    auto rest = fill_memory(small);
+    EXPECT_EQ(draw(SceneUse::kAgain), full);
+    stage.renderer.set_coarse(true);
+    EXPECT_EQ(draw(SceneUse::kKeep), full);
+    rest.clear();
+    must(stage.renderer.set_surface(stage.model.geometry()));
+    EXPECT_NE(draw(SceneUse::kKeep), full) << "another model is tried again";
+  }
+  for (const std::string& message : small.validation_messages()) ADD_FAILURE() << message;
+}
+
+TEST_F(DeviceMemory, IsNotWrittenBeyondABuffer) {
+  const auto state = device().state();
+  const Buffer buffer =
+      state->upload(std::vector<std::byte>(64), vk::BufferUsageFlagBits::eVertexBuffer);
+  state->update(buffer, std::vector<std::byte>(64));
+  EXPECT_THROW(state->update(buffer, std::vector<std::byte>(65)), Failure);
 }
 
 TEST_F(DeviceMemory, ThatTheHostCannotSeeIsFilledThroughCopies) {
