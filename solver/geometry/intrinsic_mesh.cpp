@@ -30,12 +30,12 @@ constexpr int kMaxRounds = 100;
 double missing(const Lengths& l, int k, Strictness strictness, double aim = 1) {
   const double longest = std::max({l[0], l[1], l[2]});
   const double a = l[next_corner(k)], b = l[previous_corner(k)];
-  double least = kStrict * (longest > kPointLength ? longest : 1.0);
-  if (strictness == Strictness::kHeights && longest > kPointLength) {
-    // Twice the area is L h; of Heron's factors a + b - L is L h^2 / (2 a b) where it is small.
-    least *= std::min(1.0, kStrict / 2 * (longest / a) * (longest / b));
-  }
-  return aim * least + l[k] - a - b;
+  const bool is_point = !(longest > kPointLength);
+  const double least = aim * kStrict * (is_point ? 1.0 : longest);
+  const double lack = least + l[k] - a - b;
+  if (is_point || strictness == Strictness::kInequalities || !(lack > 0)) return lack;
+  // Twice the area is L h; of Heron's factors a + b - L is L h^2 / (2 a b) where it is small.
+  return least * std::min(1.0, kStrict / 2 * (longest / a) * (longest / b)) + l[k] - a - b;
 }
 
 /// The smallest length that makes a face strict when added to all three sides.
