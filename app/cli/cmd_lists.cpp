@@ -162,7 +162,9 @@ Result<CommandOutput> run_devices(const ListArguments& arguments, Drawing& drawi
         "there is no device that can draw",
         {"install a Vulkan driver (Debian: mesa-vulkan-drivers, which also draws in software)"}};
   }
-  return list(arguments, device_table(*devices), devices_json(*devices));
+  return finish_command(
+      {}, outputs, arguments.json, [&] { return devices_json(*devices); },
+      [&] { return device_table(*devices); });
 }
 
 }  // namespace geotherm::app

@@ -243,7 +243,8 @@ Result<void> WindowLoop::draw_frame(Detail detail) {
     clock_.something_happened();  // over what that shows
     drawn = screen_->warm_up(session_->state().picture);
   }
-  if (!updated || !drawn) return drawn ? updated : drawn;
+  if (!drawn) return drawn;
+  if (!updated) return updated;
   no_memory_for_.reset();
   return {};
 }

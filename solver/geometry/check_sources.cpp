@@ -134,26 +134,6 @@ Result<void> check_edge(const IntrinsicSurface& surface, const std::array<Index,
                {"name vertices along edges"}};
 }
 
-Result<void> check_offsets(const IntrinsicSurface& surface, const SourceSet& sources) {
-  if (sources.offsets.empty()) return {};
-  if (sources.offsets.size() != sources.points.size()) {
-    return Error{ErrorCode::kBadInput,
-                 counted_text(sources.offsets.size(), "offset is", "offsets are") + " given for " +
-                     counted_text(sources.points.size(), "source point", "source points"),
-                 {"give one a point, or none"}};
-  }
-  for (std::size_t i = 0; i < sources.offsets.size(); ++i) {
-    const double offset = sources.offsets[i];
-    if (offset >= 0 && std::isfinite(offset / surface.mean_edge)) continue;
-    return Error{
-        ErrorCode::kBadInput,
-        "the offset of source point " + std::to_string(i) + " is " + number_text(offset),
-        {"offsets are lengths, not negative and not beyond all measure beside the mean edge of " +
-         rounded_text(surface.mean_edge)}};
-  }
-  return {};
-}
-
 /// Weights of the corners of a face as its counterpart in kept->faces has them.
 std::array<double, 3> as_kept(const IntrinsicSurface& surface, const Face& face, Index kept,
                               const std::array<double, 3>& weights) {
@@ -219,7 +199,29 @@ Result<void> check_sources(const IntrinsicSurface& surface, const SourceSet& sou
   for (const FaceSegment& segment : sources.segments) {
     if (auto valid = check_segment(surface, segment); !valid) return valid;
   }
-  return check_offsets(surface, sources);
+  if (sources.offsets.empty()) return {};  // nor is there a sentence to be made
+  return check_offsets(sources, surface.mean_edge,
+                       "offsets are lengths, not negative and not beyond all measure beside the "
+                       "mean edge of " +
+                           rounded_text(surface.mean_edge));
+}
+
+Result<void> check_offsets(const SourceSet& sources, double unit, const std::string& hint) {
+  const std::vector<double>& offsets = sources.offsets;
+  if (!offsets.empty() && offsets.size() != sources.points.size()) {
+    return Error{ErrorCode::kBadInput,
+                 counted_text(offsets.size(), "offset is", "offsets are") + " given for " +
+                     counted_text(sources.points.size(), "source point", "source points"),
+                 {"give one a point, or none"}};
+  }
+  for (std::size_t i = 0; i < offsets.size(); ++i) {
+    if (offsets[i] >= 0 && std::isfinite(offsets[i] / unit)) continue;
+    return Error{
+        ErrorCode::kBadInput,
+        "the offset of source point " + std::to_string(i) + " is " + number_text(offsets[i]),
+        {hint}};
+  }
+  return {};
 }
 
 }  // namespace geotherm

@@ -45,11 +45,11 @@ struct IntrinsicMesh {
 
 /// What every triangle must be.
 enum class Strictness {
-  /// 1e-5 of its longest side high. That is enough for flips, which remove most flat triangles, and
-  /// for fronts.
+  /// 1e-5 of its longest side high: flips, which remove most flat triangles, and waves need no
+  /// more.
   kHeights,
-  /// Every triangle inequality strict by 1e-5 of the longest side, for matrices: needles are as
-  /// wide, and other triangles, 450 times as wide as high at most, hundreds of times as high.
+  /// Its triangle inequalities strict by 1e-5 of its longest side, as matrices need them: a needle
+  /// is as wide as with kHeights, an obtuse triangle at least 1/450 of its longest side high.
   kInequalities
 };
 

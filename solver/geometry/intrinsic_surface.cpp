@@ -37,10 +37,10 @@ void note_mollification(const IntrinsicMesh& intrinsic, Strictness strictness,
   }
 }
 
-/// Flips what is not Delaunay, and notes it.
-Result<void> flip_where_needed(IntrinsicSurface& surface, int threads, const Progress& progress) {
+/// Flips what is not Delaunay, and notes it. False where nothing is flipped.
+Result<bool> flip_where_needed(IntrinsicSurface& surface, int threads, const Progress& progress) {
   std::vector<Side> sides = non_delaunay_sides(surface.intrinsic, threads);
-  if (sides.empty()) return {};
+  if (sides.empty()) return false;
   surface.delaunay = true;
   auto flips = flip_to_delaunay(surface.intrinsic, std::move(sides), progress);
   if (!flips) return flips.error();
@@ -49,7 +49,7 @@ Result<void> flip_where_needed(IntrinsicSurface& surface, int threads, const Pro
   } else {
     surface.edits.insert(surface.edits.end(), flips->begin(), flips->end());
   }
-  return {};
+  return true;
 }
 
 void note_refinement(const RefinementCounts& refinement, std::vector<Warning>& warnings) {
@@ -237,11 +237,13 @@ Result<IntrinsicSurface> build_intrinsic_surface(std::shared_ptr<const TriangleM
   // Flips remove flat triangles but for some along the boundary; what is lengthened then may have
   // to be flipped again.
   constexpr int kMaxRounds = 3;
+  bool is_strict = rules.strictness == Strictness::kHeights;
   for (int round = 0; flips && round < kMaxRounds; ++round) {
-    if (auto flipped = flip_where_needed(out, threads, part_of(progress, 0.75, 1.0)); !flipped) {
-      return flipped.error();
-    }
+    const auto flipped = flip_where_needed(out, threads, part_of(progress, 0.75, 1.0));
+    if (!flipped) return flipped.error();
+    if (is_strict && !*flipped) break;
     if (mollify(out.intrinsic, rules.strictness, threads) == 0) break;
+    is_strict = true;
   }
   out.warnings = cleaning_notes(clean);
   note_mollification(out.intrinsic, rules.strictness, out.warnings);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "geotherm/error.h"
@@ -33,7 +34,7 @@ struct SurfaceRules {
   bool parts = false;  ///< name connected parts; where it is refined they are named in any case
   /// Measure lengths in the unit of an earlier surface, where the mean edge is near it.
   bool same_unit = false;
-  /// Of the triangles in the end. Fronts want no more than kHeights.
+  /// What triangles are in the end. Methods that walk over them need no more than kHeights.
   Strictness strictness = Strictness::kInequalities;
 };
 
@@ -110,6 +111,10 @@ std::vector<Warning> cleaning_notes(const CleanFaces& clean);
 /// not finite or not one a point. An edge may have two ends that are one vertex. Cost: O(log F) a
 /// source, in a duplicate face beside the faces at one of its edges.
 Result<void> check_sources(const IntrinsicSurface& surface, const SourceSet& sources);
+
+/// Whether offsets, if any, are of all points, not negative, and finite in `unit`. Errors:
+/// kBadInput, with `hint` where one is wrong.
+Result<void> check_offsets(const SourceSet& sources, double unit, const std::string& hint);
 
 /// Weights (and distances over edge lengths) nearer to a corner or a side than this are on it.
 inline constexpr double kAtCorner = 1e-12;

@@ -229,9 +229,7 @@ PolygonFans build_fans(const CellComplex& given, double unit, int threads) {
   builder.lay_triangles();
   builder.join_within_faces();
   builder.join_faces();
-  if (std::ranges::any_of(out.mesh.lengths, is_flat_triangle)) {
-    mollify(out.mesh, Strictness::kHeights, threads);
-  }
+  mollify(out.mesh, Strictness::kHeights, threads);
   return out;
 }
 

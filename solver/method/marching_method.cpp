@@ -5,15 +5,13 @@
 #include <utility>
 
 #include "solver/core/stopwatch.h"
-#include "solver/core/text.h"
+#include "solver/geometry/intrinsic_surface.h"
 #include "solver/method/reach.h"
 
 namespace geotherm {
 namespace {
 
-Error bad_space_source(std::string message, Hint hint = {}) {
-  return {ErrorCode::kBadInput, std::move(message), std::move(hint)};
-}
+Error bad_space_source(std::string message) { return {ErrorCode::kBadInput, std::move(message)}; }
 
 }  // namespace
 
@@ -30,20 +28,7 @@ Result<void> check_space_sources(const SourceSet& sources, const std::string& in
     return bad_space_source("points in faces are sources of triangle meshes alone; give " +
                             instead);
   }
-  const std::vector<double>& offsets = sources.offsets;
-  if (!offsets.empty() && offsets.size() != sources.points.size()) {
-    return bad_space_source(
-        counted_text(offsets.size(), "offset is", "offsets are") + " given for " +
-            counted_text(sources.points.size(), "source point", "source points"),
-        {"give one a point, or none"});
-  }
-  for (std::size_t i = 0; i < offsets.size(); ++i) {
-    if (offsets[i] >= 0 && std::isfinite(offsets[i])) continue;
-    return bad_space_source(
-        "the offset of source point " + std::to_string(i) + " is " + number_text(offsets[i]),
-        {"offsets are lengths, finite and not negative"});
-  }
-  return {};
+  return check_offsets(sources, 1, "offsets are lengths, finite and not negative");
 }
 
 Result<void> check_weights(std::span<const double> weights, std::size_t corners,

@@ -53,12 +53,7 @@ std::string vtu_bytes(const TetMesh& mesh, std::span<const double> distances,
     file.text("</CellData>\n");
     file.points(vertices, [&](const auto& use) { std::ranges::for_each(mesh.positions(), use); });
     file.text("<Cells>\n");
-    file.array<std::int32_t>("connectivity", 4 * tets, [&](const auto& put) {
-      for (const Tet& tet : mesh.tets()) std::ranges::for_each(tet, put);
-    });
-    file.array<std::int64_t>("offsets", tets, [&](const auto& put) {
-      for (std::uint64_t t = 1; t <= tets; ++t) put(static_cast<std::int64_t>(4 * t));
-    });
+    file.cells(mesh.tets());
     file.array<std::uint8_t>("types", tets, [&](const auto& put) {
       for (std::uint64_t t = 0; t < tets; ++t) put(kVtkTetType);
     });

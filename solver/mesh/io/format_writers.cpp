@@ -242,12 +242,7 @@ std::string vtp_bytes(const TriangleMesh& mesh, std::span<const double> distance
     }
     file.points(vertices, [&](const auto& use) { std::ranges::for_each(mesh.positions(), use); });
     file.text("<Polys>\n");
-    file.array<std::int32_t>("connectivity", 3 * faces, [&](const auto& put) {
-      for (const Face& face : mesh.faces()) std::ranges::for_each(face, put);
-    });
-    file.array<std::int64_t>("offsets", faces, [&](const auto& put) {
-      for (std::uint64_t f = 1; f <= faces; ++f) put(static_cast<std::int64_t>(3 * f));
-    });
+    file.cells(mesh.faces());
     file.text("</Polys>\n");
   });
 }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <concepts>
 #include <cstdint>
 #include <functional>
@@ -55,6 +57,17 @@ class VtkWriter {
         },
         " NumberOfComponents=\"3\"");
     text("</Points>\n");
+  }
+
+  /// The arrays `connectivity` and `offsets` of cells that have as many corners each.
+  template <std::size_t kCorners>
+  void cells(std::span<const std::array<Index, kCorners>> cells) {
+    array<std::int32_t>("connectivity", kCorners * cells.size(), [cells](const auto& put) {
+      for (const auto& cell : cells) std::ranges::for_each(cell, put);
+    });
+    array<std::int64_t>("offsets", cells.size(), [cells](const auto& put) {
+      for (std::size_t i = 1; i <= cells.size(); ++i) put(static_cast<std::int64_t>(kCorners * i));
+    });
   }
 
   /// The arrays `distance` and `nearest_source`, where there are such.
