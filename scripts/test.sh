@@ -40,5 +40,6 @@ printf 'subdirs("%s")\n' "${suites[@]/#/$root/build/}" >"$root/build/all/CTestTe
 
 say "running all tests"
 for line in "${skipped[@]}"; do printf 'not run: %s\n' "$line"; done
-ctest --test-dir "$root/build/all" --output-on-failure --no-tests=error -j "$(job_count)" "$@" |
+# One more at a time than there are cores: some wait for a window, or for the launcher of ranks.
+ctest --test-dir "$root/build/all" --output-on-failure --no-tests=error -j "$(($(job_count) + 1))" "$@" |
   { grep --line-buffered -vE '^ +Start +[0-9]+: ' || true; }
