@@ -5,17 +5,18 @@ set -euo pipefail
 
 usage() {
   cat <<'TEXT'
-usage: scripts/setup.sh [--pictures] [--dev] [--lint] [--package] [--site] [--mpi]
+usage: scripts/setup.sh [--pictures] [--tests] [--dev] [--lint] [--package] [--site] [--mpi]
 
 Installs, through apt-get, the packages that building and running geotherm needs and that are not
 there yet. Says nothing when nothing is missing. Needs root or sudo only when something is.
 
   --pictures  less: what the command line and its pictures need (the preset demo)
-  --dev    also what the tests use: ccache, clang-format, locales, Vulkan's validation layer, a
-           display without a screen (Xvfb) and a hand for it (xdotool), models made to break readers,
-           shells that complete words, the judges of Debian packages and a maker of bare systems, NumPy,
-           SciPy, pytest, pip and mypy for the Python package and what it works with (joblib, dask,
-           mpi4py, tqdm, meshio), a browser for pages (Chromium)
+  --tests  also what building the tests uses: ccache, clang-format, NumPy, pytest, PETSc and MPI
+  --dev    also what the tests use when they run: locales, Vulkan's validation layer, a display
+           without a screen (Xvfb) and a hand for it (xdotool), models made to break readers, shells
+           that complete words, the judges of Debian packages and a maker of bare systems, SciPy, pip
+           and mypy for the Python package and what it works with (joblib, dask, mpi4py, tqdm,
+           meshio), a browser for pages (Chromium)
   --lint   also what scripts/lint.sh needs: clang-tidy, shellcheck
   --package  also what scripts/package.sh needs: help2man
   --mpi    also PETSc and MPI: the backend petsc, work shared over mpirun; --dev has it, too
@@ -24,6 +25,7 @@ TEXT
 }
 
 cluster=(libpetsc-real-dev libhypre-dev libopenmpi-dev openmpi-bin)
+tests=(ccache clang-format python3-numpy python3-pytest "${cluster[@]}")
 site=(doxygen python3-sphinx python3-myst-parser python3-breathe furo python3-numpy)
 packages=(g++ cmake ninja-build
   libeigen3-dev libnanoflann-dev zlib1g-dev libpng-dev  # the library
@@ -37,11 +39,11 @@ others=(libsuitesparse-dev libopenblas-dev          # the backend cholmod
 for argument in "$@"; do
   case $argument in
     --pictures) others=() ;;
-    --dev) packages+=(ccache clang-format locales vulkan-validationlayers xvfb xauth xdotool
-      assimp-testmodels zsh fish help2man man-db lintian desktop-file-utils appstream
-      shared-mime-info pkg-config mmdebstrap python3-numpy python3-scipy python3-pytest python3-pip
-      python3-venv mypy chromium python3-jsonschema python3-joblib python3-dask python3-mpi4py
-      python3-tqdm python3-meshio "${site[@]}" "${cluster[@]}") ;;
+    --tests) packages+=("${tests[@]}") ;;
+    --dev) packages+=(locales vulkan-validationlayers xvfb xauth xdotool assimp-testmodels zsh fish
+      help2man man-db lintian desktop-file-utils appstream shared-mime-info mmdebstrap python3-scipy
+      python3-pip python3-venv mypy chromium python3-jsonschema python3-joblib python3-dask
+      python3-mpi4py python3-tqdm python3-meshio "${tests[@]}" "${site[@]}") ;;
     --mpi) packages+=("${cluster[@]}") ;;
     --site) packages+=("${site[@]}") ;;
     --package) packages+=(help2man dpkg-dev) ;;

@@ -13,7 +13,16 @@ if [ "${1:-}" = --require-vulkan ]; then
   shift
 fi
 
-"$root/scripts/setup.sh" --dev
+# What the tests use only when they run is installed while they are built, unless sudo may have to ask.
+"$root/scripts/setup.sh" --tests
+installing=
+if [ "$(id -u)" -eq 0 ]; then
+  "$root/scripts/setup.sh" --dev &
+  installing=$!
+  trap wait EXIT
+else
+  "$root/scripts/setup.sh" --dev
+fi
 
 # Meshes and exact distances that are not part of the project, used where they exist.
 skipped=()
@@ -33,6 +42,8 @@ for suite in "${suites[@]}"; do
   (cd "$root" && ctest --preset "$suite" -N) | grep -qE '^Total Tests: [1-9]' ||
     fail "the build $suite has no tests"
 done
+
+if [ -n "$installing" ]; then wait "$installing"; fi
 
 # One ctest over all of them.
 mkdir -p "$root/build/all"
