@@ -193,6 +193,13 @@ void CommandLog::fail_last_open() {
   line->command.reset();
 }
 
+void CommandLog::drop_last(const Command& command) {
+  const auto line = std::find_if(lines_.rbegin(), lines_.rend(), [&command](const Line& l) {
+    return l.command && *l.command == command;
+  });
+  if (line != lines_.rend()) lines_.erase(std::next(line).base());
+}
+
 void CommandLog::add_comment(const std::string& text) { lines_.push_back({std::nullopt, text}); }
 
 std::string CommandLog::last_line() const {

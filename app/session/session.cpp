@@ -61,6 +61,7 @@ Session::Session(SessionHooks hooks) : state_(std::make_unique<State>(std::move(
   if (!state_->hooks.wake) return;
   state_->worker.emplace(state_->hooks.wake);
   state_->compare_worker.emplace(state_->hooks.wake);
+  state_->save_worker.emplace(state_->hooks.wake);
 }
 
 Session::~Session() = default;
@@ -251,6 +252,7 @@ void Session::State::pump(const Session& session) {
       script.clear();
       break;
     }
+    if (!unwritten.empty()) break;  // where one fails, nothing that follows is done
     if (needs_answers(script.front().second.command)) {
       refresh();
       if (works()) return;
@@ -294,6 +296,7 @@ Result<void> Session::finish() {
   do {
     if (s.worker) s.worker->wait();
     if (s.compare_worker) s.compare_worker->wait();
+    if (s.save_worker) s.save_worker->wait();
     s.take();
     s.pump(*this);
   } while (s.works() || (!s.script.empty() && !s.quits));
@@ -315,7 +318,7 @@ const Explored& Session::explored() const { return state_->explored; }
 const std::string& Session::failure() const { return state_->failure; }
 bool Session::can_undo() const { return !state_->undo.empty(); }
 bool Session::can_redo() const { return !state_->redo.empty(); }
-bool Session::quits() const { return state_->quits; }
+bool Session::quits() const { return state_->quits && state_->unwritten.empty(); }
 std::span<const LogLine> Session::log() const { return state_->log; }
 std::span<const QueryRecord> Session::queries() const { return state_->queries; }
 const SessionCompare& Session::compare() const { return state_->compare; }

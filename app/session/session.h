@@ -83,7 +83,8 @@ class Session {
   Session(const Session&) = delete;
   Session& operator=(const Session&) = delete;
 
-  /// Errors: the command's, also written to the log; the state is then unchanged.
+  /// Errors: the command's, also written to the log; the state is then unchanged. Where work has
+  /// threads of its own, distances are written there: what fails then is a failure of work.
   Result<void> submit(const Command& command);
   /// The same for several, with one answer for where they lead. Ends with the first error.
   Result<void> submit_all(std::span<const Command> commands);
@@ -102,11 +103,14 @@ class Session {
   /// What is shown does not belong to the state: work goes on, or it failed.
   bool stale() const;
   SessionWork work() const;
-  /// What runs now. A check alone ends without a failure: what is shown is right.
+  /// What runs now, and files that wait to be written. A check alone ends without a failure: what
+  /// is shown is right.
   void cancel();
   const std::string& failure() const;  ///< of the last work; empty: it went well
   bool can_undo() const;
   bool can_redo() const;
+  /// True once that is asked for and no file is being written. A file that cannot be written takes
+  /// the wish back, so that its user sees why.
   bool quits() const;
 
   /// Adds a line to the log.

@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: MIT
 // What a session writes.
 #include <filesystem>
+#include <memory>
+#include <new>
 #include <system_error>
+#include <utility>
 
 #include "app/session/machine.h"
 #include "app/session/model.h"
 #include "app/session/model_solver.h"
 #include "app/session/outputs.h"
+#include "app/session/progress.h"
 #include "app/session/report.h"
 #include "app/session/script.h"
 #include "app/session/session_state.h"
@@ -52,30 +56,45 @@ Result<void> write_text(const ViewerState& state, const std::string& path, const
   return outputs->write_text(path, text, unused);
 }
 
-Result<void> save_distances(const command::SaveDistances& save, const Session& session) {
-  const Explored& explored = session.explored();
-  const Answer* answer = shown_answer(explored, session.state().shown);
-  if (answer == nullptr || session.stale()) return not_yet("distances");
-  const bool difference = session.state().shown == Shown::kDifference && explored.difference;
+/// The distances shown in a file, with their nearest sources where it holds them: a solve of its
+/// own, unless they are known.
+Result<void> write_shown(const std::string& path, const Explored& explored, Shown shown,
+                         Outputs& outputs, const Progress& progress) {
+  const Answer& answer = *shown_answer(explored, shown);
+  const bool difference = shown == Shown::kDifference && explored.difference;
   const std::vector<double>& values =
-      difference ? explored.difference->values : answer->result.distances;
-  auto outputs = output_file(session.state(), save.path, "save distances");
-  if (!outputs) return outputs.error();
+      difference ? explored.difference->values : answer.result.distances;
   const Model& model = explored.model->model;
-  if (auto fits = check_answer_path(model, save.path); !fits) return fits;
   std::vector<Index> nearest;
-  if (holds_mesh(save.path) && source_groups(explored.set).count > 1) {
-    nearest = answer->result.nearest_source;
+  if (holds_mesh(path) && source_groups(explored.set).count > 1) {
+    nearest = answer.result.nearest_source;
     if (nearest.empty()) {
-      ModelSolver solver(explored.model->model);
+      ModelSolver solver(model);
       auto found =
-          solver.nearest_sources(explored.set, answer->result.distances, answer->options.threads);
+          solver.nearest_sources(explored.set, answer.result.distances, answer.options.threads,
+                                 with_prefix(progress, "nearest sources: "));
       if (!found) return found.error();
       nearest = *std::move(found);
     }
   }
-  return outputs->write(save.path,
-                        [&] { return write_answer(save.path, model, values, nearest, {}); });
+  if (!report(progress, "writing", -1)) return cancelled_error();
+  return outputs.write(path, [&] { return write_answer(path, model, values, nearest, {}); });
+}
+
+/// Checks all that can be checked at once.
+Result<Writing> writing_of(const command::SaveDistances& save, const Session& session) {
+  const Shown shown = session.state().shown;
+  if (shown_answer(session.explored(), shown) == nullptr || session.stale()) {
+    return not_yet("distances");
+  }
+  auto outputs = output_file(session.state(), save.path, "save distances");
+  if (!outputs) return outputs.error();
+  const Model& model = session.explored().model->model;
+  if (auto fits = check_answer_path(model, save.path); !fits) return fits.error();
+  return Writing([path = save.path, explored = session.explored(), shown,
+                  file = std::make_shared<Outputs>(*std::move(outputs))](const Progress& progress) {
+    return write_shown(path, explored, shown, *file, progress);
+  });
 }
 
 Result<void> save_mesh(const command::SaveMesh& save, const Session& session) {
@@ -148,7 +167,14 @@ Result<void> Session::State::save(const Command& command, const Session& session
     if (!explored.model) return not_yet("pictures");
     done = hooks.save_picture(*picture, session);
   } else if (const auto* distances = std::get_if<command::SaveDistances>(&command)) {
-    done = save_distances(*distances, session);
+    auto writing = writing_of(*distances, session);
+    if (!writing) return writing.error();
+    if (save_worker) {
+      unwritten.push_back({command, giver, at_work, *std::move(writing)});
+      if (unwritten.size() == 1) start_save();
+      return {};
+    }
+    done = (*writing)(hooks.progress);
   } else if (const auto* mesh = std::get_if<command::SaveMesh>(&command)) {
     done = save_mesh(*mesh, session);
   } else if (const auto* figures = std::get_if<command::SaveFigures>(&command)) {
@@ -159,7 +185,11 @@ Result<void> Session::State::save(const Command& command, const Session& session
     done = write_text(state, path, "save log",
                       script_head() + commands.script() + size_seen(state, hooks));
   }
-  if (!done) return done;
+  if (done) note_saved(path, giver);
+  return done;
+}
+
+void Session::State::note_saved(const std::string& path, Giver giver) {
   if (giver == Giver::kScript) {
     saved_by_scripts.insert(full_path(path));
   } else {
@@ -167,7 +197,53 @@ Result<void> Session::State::save(const Command& command, const Session& session
   }
   note(LogLine::Kind::kNote, "wrote " + one_line(path));
   log.back().has_written = giver == Giver::kUser;
-  return {};
+}
+
+/// Has the first of what waits written.
+void Session::State::start_save() {
+  const auto job = [this, path = *saved_path(unwritten.front().command),
+                    write = std::make_shared<Writing>(std::move(unwritten.front().write))](
+                       const Progress& progress) {
+    try {
+      post(Saved{(*write)(with_prefix(progress, "saving: "))});
+    } catch (const std::bad_alloc&) {
+      post(Saved{
+          Error{ErrorCode::kOutOfMemory, "the memory ended while writing " + one_line(path)}});
+    }
+  };
+  save_worker->start(job, false);
+}
+
+/// How the first ended; the next one follows.
+void Session::State::take_saved(const Result<void>& done) {
+  const Save save = std::move(unwritten.front());
+  unwritten.pop_front();
+  if (done) {
+    note_saved(*saved_path(save.command), save.giver);
+  } else {
+    fail_save(save, done.error());
+  }
+  if (!unwritten.empty()) start_save();
+}
+
+/// The one at work says itself how it ends.
+void Session::State::stop_saves() {
+  if (unwritten.empty()) return;
+  const auto waiting = unwritten.begin() + (save_worker->cancel() ? 0 : 1);
+  for (auto save = waiting; save != unwritten.end(); ++save) fail_save(*save, cancelled_error());
+  unwritten.erase(waiting, unwritten.end());
+}
+
+/// A window stays open where its user would not see why there is no file.
+void Session::State::fail_save(const Save& save, Error error) {
+  commands.drop_last(save.command);
+  if (error.code == ErrorCode::kCancelled) {
+    error = about(one_line(*saved_path(save.command)), error);
+  } else {
+    quits = false;
+  }
+  if (!first_error) first_error = save.at ? about(save.at->text(), error) : error;
+  note(error);
 }
 
 }  // namespace geotherm::app

@@ -37,7 +37,7 @@ class Worker {
 
   /// Replaces what waits. `cancel_running`: what runs now is asked to stop.
   void start(Job job, bool cancel_running);
-  void cancel();  ///< what runs, and what waits
+  bool cancel();  ///< what runs, and what waits; true: something has waited, which will not run
   void wait();    ///< until nothing runs or waits
 
   struct Status {
@@ -60,6 +60,9 @@ class Worker {
   double share_ = -1;
   std::jthread thread_;  // last: it uses all of the above
 };
+
+/// What takes long of a save. Needs nothing of the session any more, and stops as work does.
+using Writing = std::function<Result<void>(const Progress& progress)>;
 
 struct Session::State {
   explicit State(SessionHooks given) : hooks(std::move(given)) {}
@@ -106,6 +109,10 @@ struct Session::State {
   // session_files.cpp: what is written.
   Result<void> save(const Command& command, const Session& session, Giver giver);
   Result<void> check_place(const Command& command, Giver giver) const;
+  void start_save();
+  void take_saved(const Result<void>& done);
+  void stop_saves();
+  void note_saved(const std::string& path, Giver giver);
 
   SessionHooks hooks;
   ViewerState state = initial_state();
@@ -133,6 +140,14 @@ struct Session::State {
   std::vector<Asked> asked;  ///< in their order, since the last answer
   int scripts_run = 0;
   std::set<std::string> saved_by_scripts;  ///< full paths, without links
+  struct Save {
+    Command command;
+    Giver giver;
+    std::optional<Place> at;  ///< in a script
+    Writing write;
+  };
+  std::deque<Save> unwritten;  ///< in their order; the worker has the first
+  void fail_save(const Save& save, Error error);
   std::uint64_t opening = 0, last_opening = 0;
   struct Before {
     ViewerState state;
@@ -164,8 +179,11 @@ struct Session::State {
     std::uint64_t number;  ///< of State::compares
     Result<std::vector<CompareRow>> rows;
   };
+  struct Saved {
+    Result<void> done;  ///< of the first of State::unwritten
+  };
   std::mutex inbox_mutex;
-  using Message = std::variant<Early, Answered, Compared, Studied>;
+  using Message = std::variant<Early, Answered, Compared, Studied, Saved>;
   std::vector<Message> inbox;
   void post(Message message);
 
@@ -174,8 +192,8 @@ struct Session::State {
   SessionStudy study;
   std::uint64_t studies = 0, compares = 0;  ///< so many were started
 
-  Explorer explorer;                             ///< the worker's
-  std::optional<Worker> worker, compare_worker;  // last: they use all of the above
+  Explorer explorer;                                          ///< the worker's
+  std::optional<Worker> worker, compare_worker, save_worker;  // last: they use all of the above
 };
 
 }  // namespace geotherm::app

@@ -66,7 +66,8 @@ ExploreRequest Session::State::wanted() const {
 
 bool Session::State::works() {
   const std::lock_guard lock(inbox_mutex);
-  return !inbox.empty() || compare.running || (worker && worker->status().busy);
+  return !inbox.empty() || compare.running || !unwritten.empty() ||
+         (worker && worker->status().busy);
 }
 
 /// Whether what was asked for last is shown, and only its check or a centre is missing.
@@ -153,6 +154,8 @@ bool Session::State::take() {
       look_head_on();
     } else if (auto* answered_now = std::get_if<Answered>(&message)) {
       take_answer(answered_now->request, std::move(answered_now->answer), answered_now->part);
+    } else if (auto* saved = std::get_if<Saved>(&message)) {
+      take_saved(saved->done);
     } else if (auto* part = std::get_if<Studied>(&message)) {
       if (part->number == studies) study = std::move(part->study);
     } else if (auto* compared = std::get_if<Compared>(&message)) {
@@ -354,7 +357,8 @@ bool Session::stale() const {
 }
 
 SessionWork Session::work() const {
-  for (const std::optional<Worker>* worker : {&state_->worker, &state_->compare_worker}) {
+  const State& s = *state_;
+  for (const std::optional<Worker>* worker : {&s.save_worker, &s.worker, &s.compare_worker}) {
     if (!*worker) continue;
     const Worker::Status status = (*worker)->status();
     if (status.busy) return {true, status.stage, status.share};
@@ -366,6 +370,7 @@ void Session::cancel() {
   State& s = *state_;
   if (s.compare_worker) s.compare_worker->cancel();
   s.stop_study();
+  s.stop_saves();
   s.compare.running = false;  // one that waited says nothing any more
   if (!s.worker || !s.worker->status().busy) return;
   s.worker->cancel();

@@ -44,10 +44,10 @@ void Worker::start(Job job, bool cancel_running) {
   work_there_.notify_one();
 }
 
-void Worker::cancel() {
+bool Worker::cancel() {
   const std::lock_guard lock(mutex_);
-  waiting_ = nullptr;
   if (running_) cancelled_ = true;
+  return std::exchange(waiting_, nullptr) != nullptr;
 }
 
 void Worker::wait() {

@@ -190,7 +190,10 @@ ui::FrameOutput WindowLoop::lay_out_panels(bool for_file) {
 }
 
 Result<void> WindowLoop::frame() {
-  if (window_->wants_close()) return session_->submit(command::Quit{});
+  if (window_->take_close()) {
+    if (auto asked = session_->submit(command::Quit{}); !asked) return asked;
+    if (session_->quits()) return {};  // else files are still written
+  }
   if (const auto files = window_->take_dropped_files(); !files.empty()) interface_->drop(files);
   clock_.begin_frame();
   auto visible = screen_->follow_window();

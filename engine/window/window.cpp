@@ -194,7 +194,11 @@ glm::vec2 Window::content_scale() const {
   return scale;
 }
 
-bool Window::wants_close() const { return glfwWindowShouldClose(state_->window) == GLFW_TRUE; }
+bool Window::take_close() {
+  const bool asked = glfwWindowShouldClose(state_->window) == GLFW_TRUE;
+  glfwSetWindowShouldClose(state_->window, GLFW_FALSE);
+  return asked;
+}
 
 std::vector<std::string> Window::take_dropped_files() { return std::exchange(state_->dropped, {}); }
 

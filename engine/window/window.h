@@ -42,7 +42,8 @@ class Window {
 
   glm::ivec2 pixels() const;        ///< to draw into; 0 when minimised
   glm::vec2 content_scale() const;  ///< of the monitor: 2 on a HiDPI one
-  bool wants_close() const;
+  /// Whether its user has asked to close it since the last call.
+  bool take_close();
   std::vector<std::string> take_dropped_files();
   void set_title(const std::string& title);
 

@@ -38,7 +38,7 @@ TEST_F(Windows, WithoutADisplayAreAnErrorThatSaysWhy) {
 TEST_F(Windows, OpenAgainAfterTheyWereClosed) {
   for (int turn = 0; turn < 3; ++turn) {
     const auto window = must(Window::open());
-    EXPECT_FALSE(window->wants_close());
+    EXPECT_FALSE(window->take_close());
   }
 }
 
@@ -96,9 +96,10 @@ TEST_F(WindowEvents, HoldTheFilesThatWereDroppedBesidePanels) {
 }
 
 TEST_F(WindowEvents, SayThatTheWindowIsToBeClosed) {
-  EXPECT_FALSE(window_->wants_close());
+  EXPECT_FALSE(window_->take_close());
   ask_to_close("geotherm");
-  EXPECT_TRUE(eventually([&] { return window_->wants_close(); }));
+  EXPECT_TRUE(eventually([&] { return window_->take_close(); }));
+  EXPECT_FALSE(window_->take_close()) << "once";
 }
 
 class WindowWaiting : public WindowTest {
