@@ -132,7 +132,8 @@ struct Domain {
   virtual std::unique_ptr<const UnitField> unit_field(const HeatField& heat, const PerComponent& t,
                                                       const Workspace& work) const = 0;
 
-  /// Near-exact distances around the sources, which stand in for heat's; as a rule there are none.
+  /// Near-exact distances around the sources, which stand in for heat's. There are none where
+  /// UnitField::divergence() corrects X around the sources instead.
   virtual Result<std::vector<NearVertex>> near_field(const SourceAnchors& /*anchors*/) const {
     return std::vector<NearVertex>();
   }
