@@ -110,7 +110,7 @@ double query_nanoseconds(const QueryPipeline& p, bool quality) {
   const double solves =
       entries > 0 ? kEntry * entries : kIteration * kIterations * faces * std::sqrt(faces);
   const bool inserted = std::ranges::any_of(
-      p.domain.components, [](const ComponentSize& size) { return size.inserted > 0; });
+      p.domain.component_sizes, [](const ComponentSize& size) { return size.inserted > 0; });
   const double near = inserted ? kNearField : kNearMarch;
   return solves + near + (kFace + (quality ? kFaceChecked : 0)) * faces;
 }
