@@ -11,11 +11,12 @@
 namespace geotherm::app {
 namespace {
 
+using State = ViewerState;
+using Text = std::string;
+using enum SettingGroup;
+
 /// Of reading a model, and of what distances are held against.
 std::vector<Setting> model_settings() {
-  using State = ViewerState;
-  using Text = std::string;
-  using enum SettingGroup;
   return {
       choice<&ModelReading::domain>(
           {.name = "domain",
