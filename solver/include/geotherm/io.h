@@ -75,10 +75,10 @@ struct MeshFile {
 /// binary), GIFTI `.gii`, surfaces of FreeSurfer (`fsurf`, by their first bytes), `.vtp` and `.vtu`
 /// (VTK XML), `.vtk` (VTK legacy), Gmsh `.msh` (2.x, 4.1), Medit `.mesh` and `.meshb`: of what
 /// holds other elements, too, the triangles, quads and polygons. An STL has no numbers: equal
-/// corners are welded, numbered by first appearance. `.gltf`, `.glb`, `.3mf` and
-/// `.dae` (read by Assimp, where the library was built with it): all meshes of the scene with their
-/// transforms, as often as they are placed; vertices with the same position are one, numbered by
-/// first appearance, for these formats split vertices where normals or textures differ.
+/// corners are welded, numbered by first appearance. `.gltf`, `.glb`, `.3mf` and `.dae` (read by
+/// Assimp, where the library was built with it): all meshes of the scene with their transforms, as
+/// often as they are placed; vertices with the same position are one, numbered by first appearance,
+/// for these formats split vertices where normals or textures differ.
 ///
 /// Coordinates are the doubles nearest to what is written. A face of more than three corners
 /// becomes a fan from its first corner, or, where that would fold over, triangles that cover it
