@@ -134,8 +134,8 @@ Error memory_ended(const MethodOptions& options) {
 }
 
 /// A heat method with other options beside one that there is.
-Built beside(const HeatMethod& near, const MethodOptions& options, const Progress& progress) {
-  return as_heat(near.with(options, progress));
+Built beside(const HeatMethod& other, const MethodOptions& options, const Progress& progress) {
+  return as_heat(other.with(options, progress));
 }
 
 /// What works in a space that is no surface: heat and fast marching, on it as it is.
@@ -168,10 +168,10 @@ Built build_method(std::shared_ptr<const TriangleMesh> mesh, const MethodOptions
   return memory_ended(options);
 }
 
-Built build_method_near(std::shared_ptr<const TriangleMesh> mesh, const MethodOptions& options,
-                        const DistanceMethod* near, const Progress& progress) try {
-  const HeatMethod* const heat = near ? near->heat() : nullptr;
-  const auto* const outer = dynamic_cast<const MappedMethod*>(near);
+Built build_method_sharing(std::shared_ptr<const TriangleMesh> mesh, const MethodOptions& options,
+                           const DistanceMethod* other, const Progress& progress) try {
+  const HeatMethod* const heat = other ? other->heat() : nullptr;
+  const auto* const outer = dynamic_cast<const MappedMethod*>(other);
   if (heat == nullptr || options.method != MethodKind::kHeat ||
       (outer ? outer->mapping()->refine() : 0) != options.refine) {
     return build_method(std::move(mesh), options, progress);

@@ -33,14 +33,29 @@ Result<const Setting*> find_option(const char* name) {
   return unknown_name(ErrorCode::kNotAvailable, "there is no option '*'", name, names);
 }
 
+std::string_view group_name(SettingGroup group) {
+  switch (group) {
+    case SettingGroup::kModel:
+      return "model";
+    case SettingGroup::kMethod:
+      return "method";
+    case SettingGroup::kCheck:
+      return "check";
+    case SettingGroup::kPicture:
+    case SettingGroup::kFigure:
+    case SettingGroup::kCamera:
+      break;
+  }
+  return "picture";
+}
+
 app::Json settings_json() {
-  constexpr std::array kGroups = {"model", "method", "check"};
   const ViewerState initial = app::initial_state();
   app::Json all = app::Json::array();
   for (const Setting& setting : app::settings()) {
     if (!is_option(setting)) continue;
     all.push_back({{"name", setting.name},
-                   {"group", kGroups[static_cast<std::size_t>(setting.group)]},
+                   {"group", group_name(setting.group)},
                    {"help", setting.help},
                    {"default", setting.get(initial)},
                    {"values", setting.values ? setting.values() : std::vector<std::string>()}});

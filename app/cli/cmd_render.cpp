@@ -13,7 +13,6 @@
 #include "app/cli/sequence_work.h"
 #include "app/picture/picture_scale.h"
 #include "app/picture/picture_settings.h"
-#include "app/session/explored.h"
 #include "app/session/model_solver.h"
 #include "app/session/outputs.h"
 #include "app/session/progress.h"

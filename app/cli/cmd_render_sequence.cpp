@@ -10,7 +10,6 @@
 #include "app/cli/render_work.h"
 #include "app/cli/sequence_work.h"
 #include "app/picture/picture_scale.h"
-#include "app/session/explored.h"
 #include "app/session/outputs.h"
 #include "app/session/wording.h"
 #include "app/text/text.h"

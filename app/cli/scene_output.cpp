@@ -5,7 +5,6 @@
 #include <array>
 
 #include "app/picture/picture_scale.h"
-#include "app/session/explored.h"
 #include "app/session/progress.h"
 #include "app/text/text.h"
 #include "solver/core/stopwatch.h"

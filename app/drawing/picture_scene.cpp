@@ -205,7 +205,7 @@ engine::Scene scene_of(const PictureData& data, const PictureSettings& settings,
   scene.surface = surface_of(data, settings, scale);
   scene.arrows.secondary = settings.view == View::kGradientError;
   const bool field = data.is_field && !data.heat_directions.empty();
-  scene.arrows.primary = field || scene.arrows.secondary || settings.view == View::kHeatGradient;
+  scene.arrows.primary = field || shows_arrows(settings.view);
   scene.markers.visible = settings.markers && needs_sources(settings.view);
   scene.markers.radius = settings.view == View::kSources ? kLargeMarker : kMarker;
   if (settings.view == View::kSources) scene.markers.colour = kSourceRed;

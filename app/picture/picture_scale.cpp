@@ -158,6 +158,13 @@ bool needs_sources(View view) {
 
 bool maps_values(View view) { return view == View::kContours || view == View::kExactError; }
 
+bool shows_arrows(View view) { return view == View::kHeatGradient || view == View::kGradientError; }
+
+bool needs_fields(View view) {
+  const auto field = face_field(view);
+  return shows_arrows(view) || (field && needs_heat(*field));
+}
+
 bool shows_regions(const PictureData& data, const PictureDataSettings& settings) {
   return settings.view == View::kRegions && !data.nearest.empty();
 }

@@ -83,6 +83,12 @@ bool needs_sources(View view);
 /// Whether a view paints values of vertices by the colour map.
 bool maps_values(View view);
 
+/// Whether a view shows the vector fields of an answer.
+bool shows_arrows(View view);
+
+/// Whether a view needs u (QueryOptions::fields).
+bool needs_fields(View view);
+
 /// Whether a picture shows which source is the nearest: the view is to, and it is known.
 bool shows_regions(const PictureData& data, const PictureDataSettings& settings);
 

@@ -119,10 +119,6 @@ void set_answer(PictureData& data, const Explored& explored, Shown shown, View v
 
 }  // namespace
 
-bool shows_arrows(View view) { return view == View::kHeatGradient || view == View::kGradientError; }
-
-bool needs_fields(View view) { return shows_arrows(view) || view == View::kLostGradients; }
-
 void set_view_values(PictureData& data, const Model& model, View view,
                      const DistanceResult* answer) {
   const auto field = face_field(view);

@@ -89,12 +89,6 @@ PointFigures figures_at(const Explored& explored, Shown shown, const SurfacePoin
 /// The number that the picture shows there: the distance of A or B, or their difference.
 std::optional<double> value_shown(const PointFigures& figures, Shown shown);
 
-/// Whether a view shows the vector fields of an answer.
-bool shows_arrows(View view);
-
-/// Whether a view needs u (QueryOptions::fields).
-bool needs_fields(View view);
-
 /// set_face_values() of a model: those of its cells where it is a space.
 void set_view_values(PictureData& data, const Model& model, View view,
                      const DistanceResult* answer);

@@ -90,7 +90,7 @@ Result<void> find_in_space(const Space& space, const CheckedAnswers& answers,
         space_candidates(answers.options, !space.boundary_vertices().empty(), heat->relative_t());
   }
   const auto make = [&](const MethodOptions& options, const Progress& part) {
-    return build_method_near(space, options, &answers.method, part);
+    return build_method_sharing(space, options, &answers.method, part);
   };
   auto found = diagnose_space(make, answers, better, candidates, progress);
   if (!found) return found.error();
@@ -141,7 +141,8 @@ Result<ReferenceAnswers> ModelSolver::reference(
 
 /// Computes reference distances into `reference_`.
 Result<void> ModelSolver::solve_reference(MethodKind kind, const CheckedAnswers& answers,
-                                          const DistanceMethod& beside, const Progress& progress) {
+                                          const DistanceMethod& triangulated_by,
+                                          const Progress& progress) {
   const std::vector<SourceSet> sets(answers.sources.begin(), answers.sources.end());
   if (use_ == Use::kSession && reference_ && reference_->answers.method == kind &&
       reference_->sets == sets) {
@@ -149,23 +150,24 @@ Result<void> ModelSolver::solve_reference(MethodKind kind, const CheckedAnswers&
   }
   reference_.reset();
   const auto begun = std::exchange(beside_, nullptr);
-  auto solved = begun && begun->has_begun() ? begun->wait(progress)
-                                            : reference(kind, sets, answers.options.threads,
-                                                        progress, triangulation_for_waves(beside));
+  auto solved = begun && begun->has_begun()
+                    ? begun->wait(progress)
+                    : reference(kind, sets, answers.options.threads, progress,
+                                triangulation_for_waves(triangulated_by));
   if (!solved) return solved.error();
   reference_ = Reference{sets, *std::move(solved)};
   return {};
 }
 
 /// The report on answers, without a search for a remedy. Errors: kCancelled.
-Result<AccuracyReport> ModelSolver::hold(const CheckedAnswers& answers, MethodKind kind,
-                                         Check check, const DistanceMethod& beside,
-                                         const Progress& progress) {
+Result<AccuracyReport> ModelSolver::compare_with(const CheckedAnswers& answers, MethodKind kind,
+                                                 Check check, const DistanceMethod& triangulated_by,
+                                                 const Progress& progress) {
   const MethodKind checked = answers.method.kind();
   if (!is_better(kind, checked)) {
     return unchecked(checked, check, model_.space && kind == checked);
   }
-  const auto solved = solve_reference(kind, answers, beside, progress);
+  const auto solved = solve_reference(kind, answers, triangulated_by, progress);
   if (!solved && solved.error().code == ErrorCode::kCancelled) return solved.error();
   if (!solved) return failed_check(checked, solved.error());
   try {
@@ -212,8 +214,8 @@ Result<void> ModelSolver::check(Answer& answer, const CheckSettings& settings,
                                 const Progress& progress) {
   const MethodKind kind = reference_of(answer.method->kind(), settings);
   if (settings.quick && !is_better(kind, answer.method->kind())) return {};
-  auto report = hold(checked_answers(answer), kind, settings.against, *answer.method,
-                     part_of(progress, 0.0, 0.6));
+  auto report = compare_with(checked_answers(answer), kind, settings.against, *answer.method,
+                             part_of(progress, 0.0, 0.6));
   if (!report) return report.error();
   return settle(answer, *std::move(report), settings, part_of(progress, 0.6, 1.0));
 }
@@ -228,8 +230,8 @@ Result<void> ModelSolver::replace(Answer& answer, const ResolvedSources& sources
     const MethodKind against = reference_of_better(options.method, check);
     auto next = distances(options, sources, query, part_of(part, 0.0, 0.5));
     if (!next) return next;
-    auto report =
-        hold(checked_answers(*next), against, Check::kOn, *answer.method, part_of(part, 0.5, 1.0));
+    auto report = compare_with(checked_answers(*next), against, Check::kOn, *answer.method,
+                               part_of(part, 0.5, 1.0));
     if (!report) return report.error();
     next->error = std::make_shared<const AccuracyReport>(*std::move(report));
     next->report_ms = answer.report_ms;
@@ -261,7 +263,8 @@ Result<CheckedMethod> ModelSolver::check_method(const ReadyMethod& ready,
     std::vector<std::vector<double>> distances;
     for (DistanceResult& result : *results) distances.push_back(std::move(result.distances));
     const CheckedAnswers answers{*by.method, by.options, sets, distances};
-    auto report = hold(answers, against, settings.against, *ready.method, part_of(part, 0.2, 0.5));
+    auto report =
+        compare_with(answers, against, settings.against, *ready.method, part_of(part, 0.2, 0.5));
     if (!report) return report.error();
     if (searches && settings.on_poor != OnPoor::kBetter) {
       auto found = find_remedy(*report, answers, settings.against, part_of(part, 0.5, 1.0));

@@ -75,29 +75,29 @@ const ReadyMethod* ModelSolver::find_ready(const MethodOptions& options) const {
   return find_in(ready_, options);
 }
 
-/// Builds a heat method from the parts of `near`, other methods on the cached wave surface in a
-/// session.
+/// Builds a heat method from the parts of `other`, and in a session what walks over a wave surface
+/// on the cached one.
 Result<std::shared_ptr<const DistanceMethod>> ModelSolver::make(const MethodOptions& options,
-                                                                const DistanceMethod* near,
+                                                                const DistanceMethod* other,
                                                                 const Progress& progress) {
-  if (model_.space) return build_method_near(*model_.space, options, near, progress);
+  if (model_.space) return build_method_sharing(*model_.space, options, other, progress);
   const ReadyMethod* earlier = find_in(earlier_, options);
   if (earlier == nullptr && options.method == MethodKind::kHeat) {
     const auto heat = std::ranges::find(
         earlier_, MethodKind::kHeat, [](const ReadyMethod& ready) { return ready.options.method; });
-    if (heat != earlier_.end() && near == nullptr) earlier = &*heat;
+    if (heat != earlier_.end() && other == nullptr) earlier = &*heat;
   }
   if (earlier != nullptr) {
     return build_method_moved(model_.mesh, options, earlier->method.get(), progress);
   }
-  if (beside_ && near == nullptr && options.method == MethodKind::kHeat) {
+  if (beside_ && other == nullptr && options.method == MethodKind::kHeat) {
     auto made = HeatMethod::build(model_.mesh, options, progress, beside_->starter());
     if (!made) return made.error();
     return std::shared_ptr<const DistanceMethod>(
         std::make_shared<const HeatMethod>(*std::move(made)));
   }
   if (options.method == MethodKind::kHeat) {
-    return build_method_near(model_.mesh, options, near, progress);
+    return build_method_sharing(model_.mesh, options, other, progress);
   }
   if (use_ == Use::kOneAnswer) return build_method(model_.mesh, options, progress);
   const bool refined = options.refine > 0;
@@ -120,17 +120,17 @@ Result<std::shared_ptr<const DistanceMethod>> ModelSolver::make(const MethodOpti
 Result<ReadyMethod> ModelSolver::prepare(const MethodOptions& options, const Progress& progress) {
   if (const ReadyMethod* const known = find_ready(options)) return *known;
   if (auto pin = check_pin(options.constraint, model_); !pin) return pin.error();
-  const ReadyMethod* near = nullptr;
+  const ReadyMethod* other = nullptr;
   for (const ReadyMethod& ready : ready_) {
-    if (near == nullptr || (is_wanted(*near) && !is_wanted(ready))) near = &ready;
+    if (other == nullptr || (is_wanted(*other) && !is_wanted(ready))) other = &ready;
   }
   const Stopwatch watch;
-  auto made = make(options, near ? near->method.get() : nullptr, progress);
+  auto made = make(options, other ? other->method.get() : nullptr, progress);
   if (!made) return about_model(model_.name, made.error());
   SetupTiming setup = (*made)->timing();
-  if (near && setup.operators == 0) {  // taken over
-    setup.operators = near->setup.operators;
-    setup.analyze = near->setup.analyze;
+  if (other && setup.operators == 0) {  // taken over
+    setup.operators = other->setup.operators;
+    setup.analyze = other->setup.analyze;
   }
   drop_unwanted();
   std::erase_if(earlier_, [&options](const ReadyMethod& earlier) {
@@ -291,8 +291,9 @@ Result<Answer> ModelSolver::answer_all(const MethodOptions& options, const Resol
       checks ? threads : 1,
       [&] {
         if (!checks) return;
-        report = hold(checked_answers(*answer), reference_of(answer->method->kind(), wanted.check),
-                      wanted.check.against, *answer->method, with_prefix(checking, "checking: "));
+        report = compare_with(
+            checked_answers(*answer), reference_of(answer->method->kind(), wanted.check),
+            wanted.check.against, *answer->method, with_prefix(checking, "checking: "));
       },
       [&] {
         if (summary_) return;

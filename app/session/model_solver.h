@@ -123,7 +123,7 @@ class ModelSolver {
 
  private:
   Result<std::shared_ptr<const DistanceMethod>> make(const MethodOptions& options,
-                                                     const DistanceMethod* near,
+                                                     const DistanceMethod* other,
                                                      const Progress& progress);
   bool is_wanted(const ReadyMethod& ready) const;
   const ReadyMethod* find_ready(const MethodOptions& options) const;
@@ -139,9 +139,10 @@ class ModelSolver {
   MethodKind reference_of_better(MethodKind kind, Check check) const;
   std::vector<MethodKind> better_methods(MethodKind poor, Check check) const;
   Result<void> solve_reference(MethodKind kind, const CheckedAnswers& answers,
-                               const DistanceMethod& beside, const Progress& progress);
-  Result<AccuracyReport> hold(const CheckedAnswers& answers, MethodKind kind, Check check,
-                              const DistanceMethod& beside, const Progress& progress);
+                               const DistanceMethod& triangulated_by, const Progress& progress);
+  Result<AccuracyReport> compare_with(const CheckedAnswers& answers, MethodKind kind, Check check,
+                                      const DistanceMethod& triangulated_by,
+                                      const Progress& progress);
   Result<void> find_remedy(AccuracyReport& report, const CheckedAnswers& answers, Check check,
                            const Progress& progress);
   Result<void> settle(Answer& answer, AccuracyReport report, const CheckSettings& settings,

@@ -4,6 +4,7 @@
 #include <new>
 #include <utility>
 
+#include "app/picture/picture_scale.h"
 #include "app/picture/picture_text.h"
 #include "app/session/compare.h"
 #include "app/session/explored.h"

@@ -120,7 +120,7 @@ Setting number(Setting setting) {
   return setting;
 }
 
-/// The groups of the table; settings() joins them.
+/// Groups of the table, which settings() joins with those of models and checks.
 std::vector<Setting> method_settings();
 std::vector<Setting> figure_settings_table();
 std::vector<Setting> picture_settings_table();

@@ -10,11 +10,11 @@
 
 namespace geotherm::app {
 
-Result<std::shared_ptr<const DistanceMethod>> build_method_near(const Space& space,
-                                                                const MethodOptions& options,
-                                                                const DistanceMethod* near,
-                                                                const Progress& progress) {
-  const HeatMethod* const heat = near != nullptr ? near->heat() : nullptr;
+Result<std::shared_ptr<const DistanceMethod>> build_method_sharing(const Space& space,
+                                                                   const MethodOptions& options,
+                                                                   const DistanceMethod* other,
+                                                                   const Progress& progress) {
+  const HeatMethod* const heat = other != nullptr ? other->heat() : nullptr;
   if (options.method != MethodKind::kHeat || options.refine > 0 || heat == nullptr) {
     return space.build_method(options, progress);
   }

@@ -117,11 +117,11 @@ inline bool is_of_cells(QualityField field) {
          field == QualityField::kGradientAngle;
 }
 
-/// A method for the space; of heat one that shares what it can with `near`, which may be null.
-Result<std::shared_ptr<const DistanceMethod>> build_method_near(const Space& space,
-                                                                const MethodOptions& options,
-                                                                const DistanceMethod* near,
-                                                                const Progress& progress);
+/// A method for the space; of heat one that shares what it can with `other`, which may be null.
+Result<std::shared_ptr<const DistanceMethod>> build_method_sharing(const Space& space,
+                                                                   const MethodOptions& options,
+                                                                   const DistanceMethod* other,
+                                                                   const Progress& progress);
 
 /// A volume, and its border with all vertices of the volume.
 class TetSpace final : public Space {

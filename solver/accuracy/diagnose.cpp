@@ -193,7 +193,7 @@ Result<Diagnosis> diagnose(const std::shared_ptr<const TriangleMesh>& mesh,
       [&](const MethodOptions& options,
           const Progress& part) -> Result<std::shared_ptr<const DistanceMethod>> {
     if (options.method == MethodKind::kHeat) {
-      return build_method_near(mesh, options, &answers.method, part);
+      return build_method_sharing(mesh, options, &answers.method, part);
     }
     auto triangulation = triangulation_for_waves(answers.method);
     if (!triangulation) return build_method(mesh, options, part);

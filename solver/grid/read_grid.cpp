@@ -55,6 +55,7 @@ constexpr GridFormat kGridFormats[] = {{".npy", io::read_npy},
                                        {".vti", io::read_vti},
                                        {".nrrd", nullptr},
                                        {".nhdr", nullptr}};
+static_assert(io::reads_all(kGridFormats, io::kGrid));
 
 /// "in column 3 of row 5", "in column 3 of row 5 of layer 7".
 std::string place_in(const std::array<std::int64_t, 3>& size, std::size_t sample) {

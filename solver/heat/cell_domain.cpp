@@ -49,7 +49,7 @@ constexpr double kLongBody = 0.6;
 void follow_thickness(CellDomain& domain) {
   const CellMesh& mesh = *domain.mesh;
   std::vector<Vec3> normals(static_cast<std::size_t>(mesh.size()), Vec3::Zero());
-  std::vector<double> volume(domain.components.size(), 0.0), area(volume);
+  std::vector<double> volume(domain.component_sizes.size(), 0.0), area(volume);
   for (Index c = 0; c < mesh.cell_count(); ++c) {
     const auto corners = mesh.corners_of(c);
     const auto place = [&](std::size_t k) {
@@ -67,7 +67,7 @@ void follow_thickness(CellDomain& domain) {
     area[mesh.components.of[row]] += normals[row].norm();
   }
   for (std::size_t c = 0; c < volume.size(); ++c) {
-    ComponentSize& size = domain.components[c];
+    ComponentSize& size = domain.component_sizes[c];
     const double side = std::cbrt(volume[c]);
     const double of_ball = std::cbrt(36 * std::numbers::pi) * side * side;
     double thickness = 3 * volume[c] / std::max(area[c], of_ball);
@@ -93,7 +93,7 @@ void keep_width_of_flipped(CellDomain& domain) {
   for (Index v = 0; v < domain.input_vertices; ++v) {
     const Index row = domain.row_of_vertex[v], part = flipped.parts.of[v];
     if (row == kNoIndex) continue;
-    ComponentSize& size = domain.components[domain.mesh->components.of[row]];
+    ComponentSize& size = domain.component_sizes[domain.mesh->components.of[row]];
     size.mean_edge = flipped.mean_width[part];
     size.grading = flipped.grading[part];
   }
@@ -149,7 +149,7 @@ class CellInput final : public Domain::Input {
     for (std::size_t c = 0; c < out->cell_of_given.size(); ++c) {
       out->cell_of_given[out->mesh->given_cell[c]] = static_cast<Index>(c);
     }
-    out->components = measure_cells(*out->mesh);
+    out->component_sizes = measure_cells(*out->mesh);
     if (out->flipped) keep_width_of_flipped(*out);
     if (out->mesh->is_of_tets && !cells_->positions.empty() && cells_->lengths_are_straight) {
       follow_thickness(*out);

@@ -90,7 +90,7 @@ struct Domain {
   std::vector<Index> vertex_of_row;  ///< n
   std::vector<char> on_boundary;     ///< n
   BoundaryRule auto_boundary = BoundaryRule::kNeumann;  ///< what BoundaryRule::kAuto is here
-  std::vector<ComponentSize> components;
+  std::vector<ComponentSize> component_sizes;
   std::shared_ptr<const Analysis> analysis;
   std::shared_ptr<BufferPool> factor_memory;  ///< of a domain that moves; null elsewhere
   /// n, EarlierFactor::changed beside the domain from which this one moved; empty where much has.
@@ -108,7 +108,7 @@ struct Domain {
   /// Whether a row is a vertex of the input, not one that was inserted.
   bool is_of_input(Index row) const { return vertex_of_row[row] < input_vertices; }
 
-  /// The components of the rows, numbered as `components`.
+  /// The components of the rows, numbered as `component_sizes`.
   virtual const Components& parts_of_rows() const = 0;
   virtual std::span<const double> mass() const = 0;  ///< n, lumped, > 0
 
@@ -132,7 +132,8 @@ struct Domain {
   virtual std::unique_ptr<const UnitField> unit_field(const HeatField& heat, const PerComponent& t,
                                                       const Workspace& work) const = 0;
 
-  /// Near-exact distances around the sources, which stand in for heat's; as a rule there are none.
+  /// Near-exact distances around the sources, which stand in for heat's. There are none where
+  /// UnitField::divergence() corrects X around the sources instead.
   virtual Result<std::vector<NearVertex>> near_field(const SourceAnchors& /*anchors*/) const {
     return std::vector<NearVertex>();
   }

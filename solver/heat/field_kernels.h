@@ -11,7 +11,7 @@
 
 namespace geotherm {
 
-/// What a pass over the faces reads and writes, for one group of source sets: row i of u, log_u,
+/// What a pass over the faces reads and writes, for some columns of a block: row i of u, log_u,
 /// level and b starts at i * stride.
 struct FieldPass {
   const OperatorMesh* mesh;
@@ -92,7 +92,7 @@ void mark_small(const double* u, std::int64_t rows, int columns, const double* f
                 std::uint16_t* masks, InstructionSet set = best_instruction_set());
 
 /// Adds to b the integrated divergence of X = -grad u / |grad u| over the pass's faces, for a group
-/// of 1, 2, 4, 8 or 16 source sets.
+/// of 1, 2, 4, 8 or 16 columns.
 void add_unit_divergence(const FieldPass& pass, int group,
                          InstructionSet set = best_instruction_set());
 

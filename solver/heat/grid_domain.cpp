@@ -75,17 +75,17 @@ class GridInput final : public Domain::Input {
   }
 
   void measure_components(GridDomain& out) const {
-    out.components.resize(static_cast<std::size_t>(out.matrix->components.count));
-    for (ComponentSize& size : out.components) size.mean_edge = 0;
+    out.component_sizes.resize(static_cast<std::size_t>(out.matrix->components.count));
+    for (ComponentSize& size : out.component_sizes) size.mean_edge = 0;
     lattice_->for_each_cell(0, lattice_->layer_count(), [&](const GridCell& cell) {
       ComponentSize& size =
-          out.components[out.matrix->components.of[out.row_of_vertex[cell.corners[0]]]];
+          out.component_sizes[out.matrix->components.of[out.row_of_vertex[cell.corners[0]]]];
       const double width = lattice_->width(cell) * cell.slowness / out.unit;
       ++size.cells;
       size.mean_edge += width;
       size.area += width * width;
     });
-    for (ComponentSize& size : out.components) {
+    for (ComponentSize& size : out.component_sizes) {
       size.mean_edge /= size.cells;
       if (lattice_->has_one_speed()) size.grading = kOneSpeedTime;
     }

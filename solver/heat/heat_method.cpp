@@ -109,7 +109,8 @@ Attempt<HeatMethod> HeatMethod::State::factorised(const State& from, const HeatO
   next->options = options;
   next->failed.assign(failed.begin(), failed.end());
   next->substitutes = std::make_shared<State::Substitutes>();
-  auto times = diffusion_times(next->domain->components, next->domain->unit, options.time_step);
+  auto times =
+      diffusion_times(next->domain->component_sizes, next->domain->unit, options.time_step);
   if (!times) return {times.error()};
   next->times = std::move(*times);
   next->timing = {};

@@ -290,7 +290,7 @@ Result<HeatStep::Answer> HeatStep::solve_rule(bool dirichlet,
   }
   std::vector<double> factors;
   if (iterative_ && components.count > 1) {
-    factors = even_out(domain_->components, mode);
+    factors = even_out(domain_->component_sizes, mode);
     scale_rows(components, factors, b);
   }
   Block right;  // kept only where it is looked at again

@@ -18,7 +18,7 @@ struct DiffusionTimes {
   PerComponent relative = 0;  ///< in squares of the component's own mean edge
   double model_t = 0;         ///< of the component with most cells, model units squared
   double relative_t = 0;      ///< of the same, in squares of its mean edge
-  double grading = 1;         ///< of the same, Refinement::grading
+  double grading = 1;         ///< of the same, ComponentSize::grading
   double extreme = 1;         ///< that member of `relative` whose logarithm is farthest from 0
 
   bool operator==(const DiffusionTimes&) const = default;

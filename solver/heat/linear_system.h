@@ -15,7 +15,7 @@
 
 namespace geotherm {
 
-/// Blocks kept between queries. At a million faces a block of eight fields is 35 MB, which the
+/// Blocks kept between queries. At a million faces a block of 16 fields is 64 MB, which the
 /// system would hand out and clear page by page each time: more work than the solves. Safe from
 /// several threads; grows to what one query of each thread holds.
 class BlockPool {
@@ -53,7 +53,7 @@ class BlockPool {
   std::vector<Block> free_;
 };
 
-/// What one group of source sets works with, beside the groups of other threads.
+/// What one block of source sets works with, beside the blocks of other threads.
 struct Workspace {
   BlockPool& pool;
   int threads = 1;  ///< that a step may use; no answer depends on it

@@ -78,8 +78,8 @@ class Surroundings {
   Surroundings(const Surface& surface, const SourceAnchors& anchors, Index component)
       : surface_(surface),
         mesh_(*surface.operators),
-        per_length_(1 / (surface.components[component].mean_edge *
-                         std::sqrt(surface.components[component].grading))) {
+        per_length_(1 / (surface.component_sizes[component].mean_edge *
+                         std::sqrt(surface.component_sizes[component].grading))) {
     const auto is_here = [&](Index row) { return mesh_.components.of[row] == component; };
     for (const auto& anchor : anchors.anchors) {
       if (is_here(anchor.row)) anchors_.push_back(anchor);
@@ -286,7 +286,7 @@ void march_in_component(const Surface& surface, const SourceAnchors& anchors, In
   }
   const auto found = march_nearest(mesh.corners, mesh.faces, mesh.layout, seeds,
                                    near_count(anchors.source_count(mesh.components, component),
-                                              surface.components[component].cells));
+                                              surface.component_sizes[component].cells));
   for (const NearDistance& near : found) {
     const double share = share_of_heat(near.distance, found.back().distance);
     if (share < 1) out.push_back({static_cast<Index>(near.vertex), near.distance, share});
@@ -296,7 +296,7 @@ void march_in_component(const Surface& surface, const SourceAnchors& anchors, In
 /// Errors: kOutOfMemory.
 Result<void> add_component(const Surface& surface, const SourceAnchors& anchors, Index component,
                            std::vector<NearVertex>& out) {
-  const ComponentSize& size = surface.components[component];
+  const ComponentSize& size = surface.component_sizes[component];
   if (faces_worth_walking(size, 1) == 0) {
     march_in_component(surface, anchors, component, out);
     return {};

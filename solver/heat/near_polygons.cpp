@@ -249,7 +249,7 @@ std::vector<NearVertex> near_polygons(const CellDomain& domain, const SourceAnch
     inside[domain.mesh->components.of[domain.row_of_vertex[corner]]].push_back(&point);
   }
   for (const Index component : anchors.components) {
-    const ComponentSize& size = domain.components[component];
+    const ComponentSize& size = domain.component_sizes[component];
     const std::size_t count =
         near_count(anchors.source_count(domain.parts_of_rows(), component), size.cells);
     if (count == 0) continue;

@@ -28,8 +28,8 @@ class NearTets {
     using Entry = std::pair<double, Index>;
     std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
     std::unordered_set<Index> seen;
-    const double reach =
-        kTetReach * domain_.unit * domain_.components[mesh_.components.of[rows.front()]].mean_edge;
+    const double reach = kTetReach * domain_.unit *
+                         domain_.component_sizes[mesh_.components.of[rows.front()]].mean_edge;
     const auto see = [&](Index row) {
       const double line = (place_of(row) - source).norm();
       seen.insert(row);

@@ -21,7 +21,7 @@ inline bool uses_what_is_known(const HeatOptions& options) {
 /// source set a column. Under kPinSources the anchors have their value exactly; otherwise each
 /// component is shifted so that phi agrees with the anchors in the mean: `answer.shift` says by how
 /// much then. Distances below 0 become 0 and are counted where that is more than round-off; then
-/// those of `near` (find_near_field() of each set; or empty) come in. Fills `distances` (file
+/// those of `near` (Domain::near_field() of each set; or empty) come in. Fills `distances` (file
 /// order, model units, kUnreached elsewhere), `max_source_distance` and `clamped_vertices` of the
 /// results. Errors: kNumericalFailure when a value is not finite. Cost: one pass over the vertices.
 Result<void> normalize(const Domain& domain, PoissonAnswer& answer,

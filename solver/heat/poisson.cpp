@@ -122,7 +122,7 @@ Result<PoissonAnswer> PoissonSolver::solve(Block b, std::span<const SourceAnchor
     refined.system_ = system_->refined(true);
     return refined.solve(std::move(b), anchors, work, progress);
   }
-  const std::vector<ComponentSize>& sizes = domain_->components;
+  const std::vector<ComponentSize>& sizes = domain_->component_sizes;
   if (!iterative_ || sizes.size() == 1)
     return solve_as_given(std::move(b), anchors, work, progress);
   // Iterations end by one norm over all components: each comes in its own unit of length, else

@@ -20,7 +20,7 @@ namespace {
 constexpr double kHeatShare = 0.3;
 constexpr double kSolvedShare = 0.95;
 
-struct Group {
+struct SetBlock {
   std::size_t first = 0;
   std::vector<SourceAnchors> anchors;
 };
@@ -29,19 +29,19 @@ struct Group {
 /// column's last bits depend on the width of its block, so that each set whose number is a multiple
 /// of kSetsInBlock begins one whatever went before: sets that come in chunks of such a multiple get
 /// the same blocks.
-Result<std::vector<Group>> cut_into_groups(const QueryPipeline& p,
-                                           std::span<const SourceSet> sets) {
-  std::vector<Group> groups;
+Result<std::vector<SetBlock>> cut_into_blocks(const QueryPipeline& p,
+                                              std::span<const SourceSet> sets) {
+  std::vector<SetBlock> blocks;
   bool open = false;
   for (std::size_t i = 0; i < sets.size(); ++i) {
     auto placed = p.domain.place(sets[i]);
     if (!placed) return placed.error();
     const bool alone = p.heat.needs_own_system(*placed, p.options.heat);
-    if (!open || alone || i % kSetsInBlock == 0) groups.push_back({i, {}});
-    groups.back().anchors.push_back(std::move(*placed));
+    if (!open || alone || i % kSetsInBlock == 0) blocks.push_back({i, {}});
+    blocks.back().anchors.push_back(std::move(*placed));
     open = !alone;
   }
-  return groups;
+  return blocks;
 }
 
 /// Rows that are held at 0 for every source set, except its own sources.
@@ -60,16 +60,16 @@ double extreme_time(const DiffusionTimes& times, const SourceAnchors& anchors) {
   return extreme;
 }
 
-double extreme_time(const DiffusionTimes& times, const std::vector<SourceAnchors>& group) {
+double extreme_time(const DiffusionTimes& times, const std::vector<SourceAnchors>& block) {
   double extreme = 1;
-  for (const SourceAnchors& anchors : group) {
+  for (const SourceAnchors& anchors : block) {
     const double t = extreme_time(times, anchors);
     if (std::abs(std::log(t)) > std::abs(std::log(extreme))) extreme = t;
   }
   return extreme;
 }
 
-/// Who may answer a group of sources after this error.
+/// Who may answer a block of sources after this error.
 FallbackPolicy policy_after_query(const Error& error, double extreme) {
   if (error.code == ErrorCode::kOutOfMemory) return FallbackPolicy::kFactorless;
   const bool helpless = error.code == ErrorCode::kNumericalFailure && is_extreme_time(extreme);
@@ -78,15 +78,15 @@ FallbackPolicy policy_after_query(const Error& error, double extreme) {
 }
 
 /// As many threads as memory allows, up to `threads`, where each may hold a factor of its own.
-Result<int> threads_in_memory(const QueryPipeline& p, const std::vector<Group>& groups,
+Result<int> threads_in_memory(const QueryPipeline& p, const std::vector<SetBlock>& blocks,
                               int threads) {
-  const auto makes_factor = [&p](const Group& group) {
-    return p.heat.needs_own_system(group.anchors.front(), p.options.heat) ||
-           std::ranges::any_of(group.anchors,
+  const auto makes_factor = [&p](const SetBlock& block) {
+    return p.heat.needs_own_system(block.anchors.front(), p.options.heat) ||
+           std::ranges::any_of(block.anchors,
                                [&p](const auto& set) { return p.poisson.needs_own_system(set); });
   };
   int own = static_cast<int>(
-      std::min<std::ptrdiff_t>(std::ranges::count_if(groups, makes_factor), threads));
+      std::min<std::ptrdiff_t>(std::ranges::count_if(blocks, makes_factor), threads));
   if (own == 0) return threads;
   for (;; own = threads = own - 1) {
     FactorPlan plan = plan_factors(p.heat.boundary(), {}, false, 1);
@@ -110,7 +110,7 @@ double query_nanoseconds(const QueryPipeline& p, bool quality) {
   const double solves =
       entries > 0 ? kEntry * entries : kIteration * kIterations * faces * std::sqrt(faces);
   const bool inserted = std::ranges::any_of(
-      p.domain.components, [](const ComponentSize& size) { return size.inserted > 0; });
+      p.domain.component_sizes, [](const ComponentSize& size) { return size.inserted > 0; });
   const double near = inserted ? kNearField : kNearMarch;
   return solves + near + (kFace + (quality ? kFaceChecked : 0)) * faces;
 }
@@ -139,8 +139,8 @@ Result<std::vector<std::vector<NearVertex>>> near_fields(const QueryPipeline& p,
   return near;
 }
 
-/// `threads`: of this group alone.
-Result<void> solve_group(const QueryPipeline& p, std::span<const SourceSet> sets,
+/// `threads`: of this block alone.
+Result<void> solve_block(const QueryPipeline& p, std::span<const SourceSet> sets,
                          const std::vector<SourceAnchors>& anchors, const QueryOptions& query,
                          const Workspace& work, std::span<DistanceResult> results,
                          const Progress& progress) {
@@ -217,27 +217,27 @@ Attempt<std::vector<DistanceResult>> run_queries(const QueryPipeline& pipeline,
                                                  const QueryOptions& query,
                                                  const Progress& progress) {
   const Stopwatch watch;
-  const auto groups = cut_into_groups(pipeline, sets);
-  if (!groups) return {groups.error()};
+  const auto blocks = cut_into_blocks(pipeline, sets);
+  if (!blocks) return {blocks.error()};
   std::vector<DistanceResult> results(sets.size());
   const double placing = watch.milliseconds();
   const int worth =
       threads_worth(thread_count(pipeline.options.threads),
                     query_nanoseconds(pipeline, query.quality) * static_cast<double>(sets.size()));
   const auto fitting =
-      threads_in_memory(pipeline, *groups, std::min<int>(worth, static_cast<int>(groups->size())));
+      threads_in_memory(pipeline, *blocks, std::min<int>(worth, static_cast<int>(blocks->size())));
   if (!fitting) return {fitting.error(), FallbackPolicy::kFactorless};
   const int threads = std::max(1, *fitting);
-  const int inside = std::max(1, worth / threads);  // for each group
-  const auto job = [&](std::size_t g, const Progress& part) {
+  const int inside = std::max(1, worth / threads);  // for each block
+  const auto job = [&](std::size_t i, const Progress& part) {
     const ThreadCrew crew(inside, &pipeline.helpers);
-    const auto& [first, anchors] = (*groups)[g];
-    return solve_group(pipeline, sets.subspan(first, anchors.size()), anchors, query,
+    const auto& [first, anchors] = (*blocks)[i];
+    return solve_block(pipeline, sets.subspan(first, anchors.size()), anchors, query,
                        {pipeline.pool, inside}, std::span(results).subspan(first, anchors.size()),
                        part);
   };
-  if (auto failure = share_out_jobs(groups->size(), threads, pipeline.helpers, progress, job)) {
-    const double extreme = extreme_time(pipeline.times, (*groups)[failure->job].anchors);
+  if (auto failure = share_out_jobs(blocks->size(), threads, pipeline.helpers, progress, job)) {
+    const double extreme = extreme_time(pipeline.times, (*blocks)[failure->job].anchors);
     const FallbackPolicy policy = policy_after_query(failure->error, extreme);
     return {std::move(failure->error), policy};
   }

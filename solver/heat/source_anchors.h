@@ -86,12 +86,13 @@ struct NearVertex {
   double share;     ///< of heat's distance in the answer: 0 beside the source, below 1
 };
 
-/// What is known around the sources without heat: a wave (docs/numerics.md, "Wavefront") walks over
-/// the faces nearest to them. Its distances count alone up to half as far as it is sure of them, at
-/// most half of eight times the length that the triangulation resolves, and fade into heat's from
-/// there on. Errors: kOutOfMemory.
-/// Cost: that of two waves over some hundreds of faces; for many sources, over those at the sources
-/// or a tenth of all.
+/// What is known around the sources without heat. In components into which no vertices or few were
+/// inserted a march over the faces finds the nearest vertices of up to 64 sources that are no
+/// curves (near_march.h). Elsewhere a wave (docs/numerics.md, "Wavefront") walks over the nearest
+/// faces: its distances count up to where it is sure of them, at most eight times the length that
+/// the triangulation resolves. Up to half of that radius the distances count alone, and fade into
+/// heat's from there on. Errors: kOutOfMemory. Cost: that of the march, or of two waves over some
+/// hundreds of faces; for many sources, over those at the sources or a tenth of all.
 Result<std::vector<NearVertex>> find_near_field(const Surface& surface,
                                                 const SourceAnchors& anchors);
 

@@ -211,8 +211,8 @@ Result<std::shared_ptr<const Surface>> build_surface(std::shared_ptr<const Trian
   }
   out->corners = {};
   out->on_boundary = find_boundary(*out);
-  out->components = measure_components(*out);
-  if (std::ranges::none_of(out->components, [](const auto& size) { return size.area > 0; })) {
+  out->component_sizes = measure_components(*out);
+  if (std::ranges::none_of(out->component_sizes, [](const auto& size) { return size.area > 0; })) {
     return Error{ErrorCode::kBadInput, "the mesh has no area; all its faces are degenerate"};
   }
   timing.stages.renumber = watch.lap();

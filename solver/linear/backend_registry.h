@@ -26,8 +26,8 @@ const Backend* eigen_ldlt_backend();
 /// Heat steps by the native factor, Poisson by PETSc. Where has_mpi_module().
 const Backend* petsc_backend();
 
-/// Conjugate gradients with a diagonal preconditioner; never forms a matrix (Hestenes, Stiefel
-/// 1952).
+/// Conjugate gradients (Hestenes, Stiefel 1952), preconditioned by the diagonal, without a matrix;
+/// where systems are large, by multigrid, whose coarser levels are made of the assembled matrix.
 const Backend* cg_backend();
 
 /// Which backends may take over from one that failed.

@@ -143,7 +143,7 @@ class ConjugateGradient final : public Factorization {
                      "the budget of " + std::to_string(budget) +
                          " iterations ended at a relative residual of " +
                          rounded_text(std::sqrt(rho / start)),
-                     {"try ", SettingHint{"backend", {"cholmod", "eigen-ldlt"}}},
+                     {"try ", SettingHint{"backend", {"native"}}},
                      kCgName};
       }
       ++report.iterations;

@@ -49,6 +49,7 @@ constexpr MeshReader kMeshReaders[] = {
     {".gii", read_whole<io::read_gifti>},
     {".fsurf", read_whole<io::read_freesurfer>},
 };
+static_assert(io::reads_all(kMeshReaders, io::kFaces));
 
 /// The triangles of a mesh whose polygons are fans. Errors: kBadInput.
 Result<TriangleMesh> triangles_of(io::RawMesh raw) {

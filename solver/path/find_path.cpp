@@ -168,9 +168,17 @@ std::string place_text(const Vec3& p) {
 /// shortest; more than any of methods that are not near exact.
 double error_of(MethodKind kind) {
   constexpr double kOfExact = 1e-4, kOfWaves = 0.01;
-  if (kind == MethodKind::kExact) return kOfExact;
-  const bool waves = kind == MethodKind::kWavefront || kind == MethodKind::kWavefrontFine;
-  return waves ? kOfWaves : kUnreached;
+  switch (kind) {
+    case MethodKind::kExact:
+      return kOfExact;
+    case MethodKind::kWavefront:
+    case MethodKind::kWavefrontFine:
+      return kOfWaves;
+    case MethodKind::kHeat:
+    case MethodKind::kFastMarching:
+      break;
+  }
+  return kUnreached;
 }
 
 /// The straight piece between two places of one face: on the surface nothing is shorter.

@@ -26,6 +26,7 @@ constexpr PointFormat kPointFormats[] = {{kPly, io::read_ply_points},
                                          {".xyz", io::read_xyz_points},
                                          {".pts", io::read_pts_points},
                                          {".pcd", io::read_pcd_points}};
+static_assert(io::reads_all(kPointFormats, io::kPoints));
 
 /// The header of a PLY file, from as much of the file as it takes. Throws ReadFailure.
 bool has_no_faces(const io::InputFile& file) {

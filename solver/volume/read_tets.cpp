@@ -27,6 +27,7 @@ constexpr TetFormat kTetFormats[] = {
     {".node", nullptr, {}},
     {".ele", nullptr, {}},
 };
+static_assert(io::reads_all(kTetFormats, io::kTets));
 
 Result<TetFile> finish_tets(const std::string& name, io::RawElements raw) {
   const std::string others = text_of_others(raw);

@@ -83,7 +83,7 @@ TEST_F(Formats, OfFramesMayBePacked) {
 
 TEST_F(Formats, AreAllInTheHelp) {
   const std::string help = run({"solve", "--help"}).out;
-  for (const io::ModelFormat& format : io::model_format_table()) {
+  for (const io::ModelFormat& format : io::kModelFormats) {
     EXPECT_NE(help.find("." + std::string(format.name)), std::string::npos) << format.name;
   }
 }

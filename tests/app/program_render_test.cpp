@@ -2,6 +2,7 @@
 // Pictures from the built program, on whatever device there is; the software one is enough.
 #include <set>
 
+#include "app/picture/picture_settings.h"
 #include "tests/app/png_reader.h"
 #include "tests/app/program_fixture.h"
 #include "tests/app/variable.h"
@@ -31,7 +32,7 @@ class ProgramRender : public DrawingProgram {
 /// Shades of a lit model alone are more than this.
 constexpr std::size_t kSomeColours = 40;
 
-class ProgramViews : public ProgramRender, public testing::WithParamInterface<const char*> {};
+class ProgramViews : public ProgramRender, public testing::WithParamInterface<std::string> {};
 
 TEST_P(ProgramViews, ArePicturesOfTheModel) {
   const auto [content, colours] = picture({"bunny", "-s", "17", "--view", GetParam()});
@@ -41,10 +42,7 @@ TEST_P(ProgramViews, ArePicturesOfTheModel) {
   EXPECT_GT(colours, kSomeColours);
 }
 
-INSTANTIATE_TEST_SUITE_P(All, ProgramViews,
-                         testing::Values("wireframe", "flat", "smooth", "sources", "heat-gradient",
-                                         "gradient-error", "contours", "eikonal-error",
-                                         "lost-gradients", "triangle-quality", "non-delaunay"),
+INSTANTIATE_TEST_SUITE_P(All, ProgramViews, testing::ValuesIn(all_names<app::View>()),
                          [](const auto& test) {
                            std::string name = test.param;
                            std::replace(name.begin(), name.end(), '-', '_');

@@ -76,20 +76,20 @@ Solved solve_bunny() {
   return solved;
 }
 
-/// A view's scene, and what may differ. Other instruction sets change the last bit here and there;
-/// at the edges of lines, letters and arrows that is enough to change a pixel.
-struct View {
+/// What the engine is to draw, and what may differ. Other instruction sets change the last bit here
+/// and there; at the edges of lines, letters and arrows that is enough to change a pixel.
+struct GoldenScene {
   std::string name;
   double share;
   void (*change)(Scene& scene);
 };
-void PrintTo(const View& view, std::ostream* out) { *out << view.name; }
+void PrintTo(const GoldenScene& scene, std::ostream* out) { *out << scene.name; }
 
 constexpr double kSurfaces = 0.005;
 constexpr double kLines = 0.01;
 
-const std::vector<View>& views() {
-  static const std::vector<View> kViews = {
+const std::vector<GoldenScene>& golden_scenes() {
+  static const std::vector<GoldenScene> kScenes = {
       {"wireframe", kLines,
        [](Scene& s) {
          s.surface.wire = true;
@@ -127,12 +127,12 @@ const std::vector<View>& views() {
          s.surface.line_spacing = 0.1F;
        }},
   };
-  return kViews;
+  return kScenes;
 }
 
-class GoldenView : public GpuTest, public testing::WithParamInterface<View> {};
+class GoldenPicture : public GpuTest, public testing::WithParamInterface<GoldenScene> {};
 
-TEST_P(GoldenView, LooksAsItDid) {
+TEST_P(GoldenPicture, LooksAsItDid) {
   Solved solved = solve_bunny();
   Stage stage(device(), std::move(solved.model), 4);
   must(stage.renderer.set_values(solved.values));
@@ -190,11 +190,12 @@ INSTANTIATE_TEST_SUITE_P(Shapes, GoldenLegend,
                            return std::string(test.param.y > test.param.x ? "Row" : "Column");
                          });
 
-INSTANTIATE_TEST_SUITE_P(All, GoldenView, testing::ValuesIn(views()), [](const auto& test) {
-  std::string name = test.param.name;
-  std::erase(name, '-');
-  return name;
-});
+INSTANTIATE_TEST_SUITE_P(All, GoldenPicture, testing::ValuesIn(golden_scenes()),
+                         [](const auto& test) {
+                           std::string name = test.param.name;
+                           std::erase(name, '-');
+                           return name;
+                         });
 
 }  // namespace
 }  // namespace geotherm::test

@@ -81,6 +81,41 @@ TEST_P(BackendFailures, MatrixFreeBackendsNeverAssemble) {
   EXPECT_EQ(counted->applied > 0, backend.iterative());
 }
 
+/// I plus what turns pairs of entries by a right angle: not symmetric, so that conjugate gradients
+/// never come to an end.
+class TurningOperator final : public SymmetricOperator {
+ public:
+  explicit TurningOperator(const SymmetricOperator& like)
+      : ones_(static_cast<std::size_t>(like.size()), 1.0), pattern_(like.pattern()) {}
+
+  Index size() const override { return static_cast<Index>(ones_.size()); }
+  void apply(std::span<const double> x, std::span<double> y) const override {
+    std::ranges::copy(x, y.begin());
+    for (std::size_t i = 0; i + 1 < x.size(); i += 2) {
+      y[i] -= x[i + 1];
+      y[i + 1] += x[i];
+    }
+  }
+  std::span<const double> diagonal() const override { return ones_; }
+  std::uint64_t pattern() const override { return pattern_; }
+  const LowerMatrix& assembled() const override { return none_; }
+
+ private:
+  std::vector<double> ones_;
+  std::uint64_t pattern_;
+  LowerMatrix none_;
+};
+
+TEST(ConjugateGradients, ThatDoNotEndNameTheBackendOfEveryBuild) {
+  const Analysed surface = analysed(*finish(torus(24, 12, 0.4)), backend_named("cg"));
+  const auto matrix = std::make_shared<TurningOperator>(FemOperator(surface.operators, 1, 1));
+  const auto answer = attempt(*surface.analysis, matrix, random_block(matrix->size(), 1, 1));
+  ASSERT_FALSE(answer);
+  EXPECT_EQ(answer.error().code, ErrorCode::kBudgetEnded);
+  EXPECT_NE(sentence(answer.error()).find("try backend native"), std::string::npos)
+      << sentence(answer.error());
+}
+
 INSTANTIATE_TEST_SUITE_P(Backends, BackendFailures, testing::ValuesIn(backend_names()),
                          backend_test_name);
 

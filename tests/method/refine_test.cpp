@@ -160,14 +160,14 @@ TEST(Refined, HasFieldsAndFiguresAndSharesFactorsWithItsNeighbour) {
   EXPECT_EQ(fields->log_heat.size(), static_cast<std::size_t>(mesh->vertex_count()));
 
   options.time_step.factor = 3;
-  const auto near = build_method_near(mesh, options, method->get());
+  const auto near = build_method_sharing(mesh, options, method->get());
   ASSERT_TRUE(near) << near.error().message;
   EXPECT_EQ((*near)->timing().operators, 0) << "taken over";
   const auto d = (*near)->solve(source);
   ASSERT_TRUE(d);
   EXPECT_EQ(d->distances, answer(mesh, source, options).distances);
   options.refine = 0;
-  const auto plain = build_method_near(mesh, options, method->get());
+  const auto plain = build_method_sharing(mesh, options, method->get());
   ASSERT_TRUE(plain);
   EXPECT_EQ((*plain)->solve(source)->distances, answer(mesh, source, options).distances);
 }

@@ -50,11 +50,11 @@ Result<std::shared_ptr<const DistanceMethod>> build_method(std::shared_ptr<const
                                                            const MethodOptions& options = {},
                                                            const Progress& progress = {});
 
-/// The same beside a method on the same mesh, null where there is none: a heat method shares with
+/// The same where there is a method on the same mesh, `other`, or null: a heat method shares with
 /// another one what stays the same (HeatMethod::with()).
-Result<std::shared_ptr<const DistanceMethod>> build_method_near(
+Result<std::shared_ptr<const DistanceMethod>> build_method_sharing(
     std::shared_ptr<const TriangleMesh> mesh, const MethodOptions& options,
-    const DistanceMethod* near, const Progress& progress = {});
+    const DistanceMethod* other, const Progress& progress = {});
 
 /// The same surface with its vertices elsewhere: frames of an animation, a mesh that is sculpted.
 /// `earlier`: a method on a mesh of the same faces, or null; a heat method and waves take over what

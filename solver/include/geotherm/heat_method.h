@@ -109,9 +109,9 @@ class HeatMethod final : public DistanceMethod {
   /// in grading(); then this is the time of the component with most faces (of several, the first).
   double t() const;
   double relative_t() const;  ///< the same in squares of that component's mean edge
-  /// g = t / h^2 of that component at the time factor 1, where the time follows h: 1, but where
-  /// vertices are inserted or faces are too large for t = h^2, in tets that are many across, and on
-  /// grids with one speed (1/4).
+  /// g = t / h^2 of that component at the time factor 1, where the time follows h. It is 1, but
+  /// where faces are too large for t = h^2 and their triangulation is refined; in tets, where it
+  /// follows how many lie across a body and is 0.6 or more; and on grids with one speed (1/4).
   double grading() const;
   /// The least and the largest time of a component, model units squared.
   std::array<double, 2> t_range() const;

@@ -53,7 +53,7 @@ class ModelInput {
 std::vector<std::string> model_formats();
 
 /// The formats of triangle meshes: obj, ply, off, stl, gltf, glb, 3mf, dae, vtp, vtk, vtu, msh,
-/// mesh, meshb.
+/// mesh, meshb, gii, fsurf.
 std::vector<std::string> mesh_formats();
 
 /// Errors: kNotAvailable (none of model_formats()), with those that there are.
@@ -72,12 +72,13 @@ struct MeshFile {
 /// Reads the faces of a model; vertex numbers are 0-based and in the order of the file.
 ///
 /// `.obj`, `.ply` (ASCII, little and big endian; also triangle strips), `.off`, `.stl` (ASCII,
-/// binary), `.vtp` and `.vtu` (VTK XML), `.vtk` (VTK legacy), Gmsh `.msh` (2.x, 4.1), Medit `.mesh`
-/// and `.meshb`: of what holds other elements, too, the triangles, quads and polygons. An STL has
-/// no numbers: equal corners are welded, numbered by first appearance. `.gltf`, `.glb`, `.3mf` and
-/// `.dae` (read by Assimp, where the library was built with it): all meshes of the scene with their
-/// transforms, as often as they are placed; vertices with the same position are one, numbered by
-/// first appearance, for these formats split vertices where normals or textures differ.
+/// binary), GIFTI `.gii`, surfaces of FreeSurfer (`fsurf`, by their first bytes), `.vtp` and `.vtu`
+/// (VTK XML), `.vtk` (VTK legacy), Gmsh `.msh` (2.x, 4.1), Medit `.mesh` and `.meshb`: of what
+/// holds other elements, too, the triangles, quads and polygons. An STL has no numbers: equal
+/// corners are welded, numbered by first appearance. `.gltf`, `.glb`, `.3mf` and `.dae` (read by
+/// Assimp, where the library was built with it): all meshes of the scene with their transforms, as
+/// often as they are placed; vertices with the same position are one, numbered by first appearance,
+/// for these formats split vertices where normals or textures differ.
 ///
 /// Coordinates are the doubles nearest to what is written. A face of more than three corners
 /// becomes a fan from its first corner, or, where that would fold over, triangles that cover it

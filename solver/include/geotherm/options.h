@@ -9,7 +9,8 @@
 #include "geotherm/types.h"
 
 // The options of the heat method, and their text. docs/numerics.md says what each does and what it
-// is worth. The other methods have no option but the number of threads.
+// is worth. Of these the other methods use the number of threads alone; what all methods on
+// surfaces know beside it is MethodOptions::refine.
 namespace geotherm {
 
 /// How the diffusion time t (model units squared) is chosen. g is HeatMethod::grading(): 1 but on

@@ -12,22 +12,6 @@
 namespace geotherm::io {
 namespace {
 
-constexpr ModelFormat kModelFormats[] = {
-    {"obj", kFaces},          {"ply", kFaces | kPoints},
-    {"off", kFaces},          {"stl", kFaces},
-    {"gltf", kFaces},         {"glb", kFaces},
-    {"3mf", kFaces},          {"dae", kFaces},
-    {"vtp", kFaces},          {"vtk", kFaces | kTets},
-    {"vtu", kFaces | kTets},  {"msh", kFaces | kTets},
-    {"mesh", kFaces | kTets}, {"meshb", kFaces | kTets},
-    {"gii", kFaces},          {"fsurf", kFaces},
-    {"node", kTets},          {"ele", kTets},
-    {"xyz", kPoints},         {"pts", kPoints},
-    {"pcd", kPoints},         {"png", kGrid},
-    {"npy", kGrid},           {"vti", kGrid},
-    {"nrrd", kGrid},          {"nhdr", kGrid},
-};
-
 constexpr std::string_view kBlanks = " \t\r\n";
 
 struct FileBeginning {
@@ -95,8 +79,6 @@ std::string_view without_comments(std::string_view text) {
 }
 
 }  // namespace
-
-std::span<const ModelFormat> model_format_table() { return kModelFormats; }
 
 std::vector<std::string> formats_holding(unsigned what) {
   std::vector<std::string> names;

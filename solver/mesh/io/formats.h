@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: MIT
-// The formats that models are read from, whatever they hold: the one list that readers, messages,
-// help and dialogs share.
+// The formats that models are read from, whatever they hold: the list that messages, help and
+// dialogs share, and that the tables of readers are held against.
 #pragma once
 
 #include <algorithm>
 #include <cstddef>
 #include <iterator>
-#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -21,7 +20,21 @@ struct ModelFormat {
   unsigned holds;         ///< of Holding
 };
 
-std::span<const ModelFormat> model_format_table();
+inline constexpr ModelFormat kModelFormats[] = {
+    {"obj", kFaces},          {"ply", kFaces | kPoints},
+    {"off", kFaces},          {"stl", kFaces},
+    {"gltf", kFaces},         {"glb", kFaces},
+    {"3mf", kFaces},          {"dae", kFaces},
+    {"vtp", kFaces},          {"vtk", kFaces | kTets},
+    {"vtu", kFaces | kTets},  {"msh", kFaces | kTets},
+    {"mesh", kFaces | kTets}, {"meshb", kFaces | kTets},
+    {"gii", kFaces},          {"fsurf", kFaces},
+    {"node", kTets},          {"ele", kTets},
+    {"xyz", kPoints},         {"pts", kPoints},
+    {"pcd", kPoints},         {"png", kGrid},
+    {"npy", kGrid},           {"vti", kGrid},
+    {"nrrd", kGrid},          {"nhdr", kGrid},
+};
 
 /// The formats that may hold `what` (Holding), in the order of the table.
 std::vector<std::string> formats_holding(unsigned what);
@@ -41,6 +54,19 @@ template <class Format, std::size_t N>
 const Format* format_of(const Format (&table)[N], std::string_view extension) {
   const Format* const found = std::ranges::find(table, extension, &Format::extension);
   return found == std::end(table) ? nullptr : found;
+}
+
+/// Whether a table of readers has each format that may hold `what` (Holding), and no other one.
+template <class Format, std::size_t N>
+constexpr bool reads_all(const Format (&table)[N], unsigned what) {
+  std::size_t count = 0;
+  for (const ModelFormat& format : kModelFormats) {
+    if ((format.holds & what) == 0) continue;
+    ++count;
+    const auto reads = [&](const Format& each) { return each.extension.substr(1) == format.name; };
+    if (std::ranges::none_of(table, reads)) return false;
+  }
+  return count == N;
 }
 
 }  // namespace geotherm::io
