@@ -44,9 +44,17 @@ def test_paths(arrays, bunny):
     poly = path_solver.find_geodesic_path_poly([14, 600, 22])  # pulled straight past 600
     assert length_of(poly) == pytest.approx(exact.distance(14)[22], rel=1e-6)
     assert np.array_equal(poly[[0, -1]], V[[14, 22]])
-    assert path_solver.find_geodesic_loop([14, 400, 900]).shape[1] == 3
+    with pytest.warns(geotherm.ResultWarning, match="drawn together to a point"):
+        assert path_solver.find_geodesic_loop([14, 400, 900]).shape == (1, 3)
     with pytest.raises(NotImplementedError):
         path_solver.find_geodesic_path(14, 22, max_iterations=3)
+
+
+def test_loops_go_round_handles(torus):
+    V, F, through, length = torus
+    loop = pp3d.EdgeFlipGeodesicSolver(V, F).find_geodesic_loop(through)
+    assert length_of(loop) == pytest.approx(length, rel=1e-6)
+    assert np.array_equal(loop[0], loop[-1])
 
 
 def test_straightest_lines(arrays, bunny):

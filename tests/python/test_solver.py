@@ -89,7 +89,19 @@ def test_a_path_is_as_long_as_the_distance(bunny, solver):
     corners = bunny.vertices[bunny.faces[path.faces]]
     assert np.allclose(np.einsum("nk,nkd->nd", path.weights, corners), path.points)
     assert solver.path(17, 900, field="distance").length >= path.length
-    assert solver.path(17, 900, 400, closed=True).closed
+
+
+def test_a_loop_round_a_handle_is_as_long_as_the_handle_is_thick(torus):
+    V, F, through, length = torus
+    loop = geotherm.Solver(geotherm.Mesh(V, F)).path(*through, closed=True)
+    assert loop.closed and loop.length == pytest.approx(length, rel=1e-6)
+    assert np.array_equal(loop.points[0], loop.points[-1])
+
+
+def test_what_lines_cannot_say_is_a_warning(solver):
+    with pytest.warns(geotherm.ResultWarning, match="drawn together to a point"):
+        loop = solver.path(17, 900, closed=True)
+    assert loop.length == 0 and loop.closed
 
 
 def test_isolines_lie_at_their_levels(bunny, solver, tmp_path):

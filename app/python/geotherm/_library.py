@@ -5,10 +5,12 @@ from __future__ import annotations
 
 import ctypes
 import functools
+import json
 import os
 import sys
 import threading
 import time
+import warnings
 from collections.abc import Callable
 from ctypes import POINTER, byref, c_char_p, c_double, c_int, c_int64, c_void_p
 from pathlib import Path
@@ -57,7 +59,7 @@ class InputError(Error, ValueError):
 
 
 class ResultWarning(UserWarning):
-    """What there is to know of an answer that is an array alone."""
+    """What there is to know of an answer that has no `warnings` itself: an array, lines, samples."""
 
 
 class Array(ctypes.Structure):
@@ -229,6 +231,13 @@ def create(function: str, *arguments: Any) -> Handle:
     """The handle that a function makes, which is its last argument."""
     handle = Handle()
     call(function, *arguments, byref(handle.value))
+    return handle
+
+
+def warned(handle: Handle) -> Handle:
+    """An answer whose warnings nothing holds: they are ResultWarnings for the caller's caller."""
+    for text in json.loads(handle.text("warnings")):
+        warnings.warn(text, ResultWarning, stacklevel=3)
     return handle
 
 

@@ -24,6 +24,7 @@ from geotherm._library import (
     create,
     path_bytes,
     text_bytes,
+    warned,
 )
 from geotherm._models import Mesh, Model
 from geotherm._options import SolverSignature, given_options, options_of
@@ -222,6 +223,8 @@ class Solver:
             closed: leads from the last to the first, and is pulled straight all round.
             loose: of an open geodesic the points between its ends only say where it runs at first.
 
+        A ResultWarning says where a loop was drawn together to a point, and the like.
+
         >>> solver.path(17, 99).length > 0
         True
         """
@@ -237,7 +240,7 @@ class Solver:
                 2 if loose else int(bool(closed)),
                 watch.pointer,
             )
-        return Lines(handle, values=False)[0]
+        return Lines(warned(handle), values=False)[0]
 
     def paths(self, start: Any, ends: Any, *, progress: Progress = None) -> Lines:
         """The shortest paths from one point to each of others, in their order; the distances from it
@@ -251,7 +254,7 @@ class Solver:
             handle = create(
                 "paths", self._handle.value, begin.pointer, end.pointer, watch.pointer
             )
-        return Lines(handle, values=False)
+        return Lines(warned(handle), values=False)
 
     def relax(self, points: Any, steps: int, *, progress: Progress = None) -> Relaxed:
         """Lloyd's iteration: each point moves to the mean of the vertices nearest to it, `steps` times
@@ -266,9 +269,10 @@ class Solver:
         """
         taken = Taken(points, "points", sets=True)
         with Watch(progress) as watch:
-            return Relaxed(
-                create("relax", self._handle.value, taken.pointer, whole_in(steps, "steps"), watch.pointer)
+            handle = create(
+                "relax", self._handle.value, taken.pointer, whole_in(steps, "steps"), watch.pointer
             )
+        return Relaxed(warned(handle))
 
     def farthest_points(
         self, count: int, *, first: int | None = None, progress: Progress = None
@@ -281,9 +285,10 @@ class Solver:
         """
         begin = -1 if first is None else whole_in(first, "first")
         with Watch(progress) as watch:
-            return Samples(
-                create("samples", self._handle.value, whole_in(count, "count"), begin, watch.pointer)
+            handle = create(
+                "samples", self._handle.value, whole_in(count, "count"), begin, watch.pointer
             )
+        return Samples(warned(handle))
 
     def update(self, vertices: Any, *, progress: Progress = None) -> Solver:
         """The same faces and options with the vertices (V, 3) elsewhere, in half of the time of a
