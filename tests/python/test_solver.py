@@ -190,6 +190,13 @@ def test_an_option_that_is_none_is_a_wrong_keyword(bunny):
         geotherm.read("bunny", threads=1)
 
 
+def test_switches_are_booleans_of_numpy_too(bunny, solver):
+    assert geotherm.Solver(bunny, strict=np.True_).options == {"strict": np.True_}
+    with pytest.raises(geotherm.Error) as caught:
+        geotherm.Solver(bunny, progress=lambda *_: np.False_)
+    assert caught.value.code == "cancelled"
+
+
 def test_a_solver_tells_what_it_took(solver):
     report = solver.report()
     assert report["timing_ms"]["setup"] > 0 and report["options"]["method"] == "heat"

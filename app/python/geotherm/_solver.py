@@ -88,7 +88,9 @@ class Solver:
         Args:
             sources: a vertex number; several; (face, weights); a place [x, y, z], or places (n, 3),
                 of which the nearest point of the model is taken; text as on the command line, such
-                as "boundary", "curve:3,4,5", "random:5", "17@0.5"; or a list of all these.
+                as "boundary", "curve:3,4,5", "random:5", "17@0.5"; or a list of all these. Whole
+                numbers in a list are vertices; a list of lists of them, which may be places, is
+                refused: give floats or numpy.array() of it.
             out: (V,) float64 or float32 that is written to and returned.
             dtype: of a new array; float64.
 
@@ -161,7 +163,7 @@ class Solver:
         if array is not None:
             return array
         assert path is not None
-        if os.fspath(path).endswith(".npz"):
+        if os.fsdecode(path).lower().endswith(".npz"):
             return importlib.import_module("scipy.sparse").load_npz(path)
         mapped: AnyArray = np.load(path, mmap_mode="r")
         return mapped
@@ -206,7 +208,8 @@ class Solver:
         with Watch(progress) as watch:
             words = text_bytes(" ".join(wanted), "check")
             handle = create("solve", self._handle.value, taken.pointer, words, watch.pointer)
-        return Result(handle, self.model, taken.texts(), self._settings)
+        reach = {} if most == float("inf") else {"max_distance": most}
+        return Result(handle, self.model, taken.texts(), {**self._settings, **reach})
 
     def path(
         self,
