@@ -222,7 +222,7 @@ Result<void> check_asked(std::span<const SurfacePoint> points, std::span<const d
                  "weight " + std::to_string(bad - weights.begin()) + " is " + number_text(*bad),
                  {"give numbers from 0 on"}};
   }
-  if (!weights.empty() && !(std::accumulate(weights.begin(), weights.end(), 0.0) > 0)) {
+  if (!weights.empty() && *std::ranges::max_element(weights) == 0) {
     return Error{ErrorCode::kBadInput, "all weights are 0", {"give one that is above"}};
   }
   if (options.max_steps >= 1) return {};
@@ -372,8 +372,11 @@ Result<Centres> find_centres(const std::shared_ptr<const TriangleMesh>& mesh,
                              std::span<const double> given_weights, const CentreOptions& options,
                              const Progress& progress) try {
   if (auto fine = check_asked(points, given_weights, options); !fine) return fine.error();
-  const std::vector<double> ones(points.size(), 1.0);
-  const std::span<const double> weights = given_weights.empty() ? ones : given_weights;
+  std::vector<double> weights(given_weights.begin(), given_weights.end());
+  if (weights.empty()) weights.assign(points.size(), 1.0);
+  // Near 1, so that sums of many stay in the range of doubles; shares are as they were.
+  const int most = std::ilogb(*std::ranges::max_element(weights));
+  for (double& weight : weights) weight = std::scalbn(weight, -most);
   const int exponent = extreme_exponent(*mesh);
   if (exponent == 0) return centres_on(mesh, points, weights, options, 0, progress);
   const double unit = std::ldexp(1.0, exponent);

@@ -120,6 +120,15 @@ def test_a_library_that_is_missing_or_another_is_said(library):
     assert said.returncode == 1 and "ImportError: " in said.stderr and library in said.stderr
 
 
+def test_progress_that_asks_its_own_solver_is_refused_not_waited_for(bunny):
+    solver = geotherm.Solver(bunny)
+    with pytest.raises(geotherm.InputError, match="whose progress asks it; ask it when"):
+        solver.path(17, 99, progress=lambda stage, share: solver.solve(3) and None)
+    beside = geotherm.Solver(bunny)
+    line = solver.path(17, 99, progress=lambda *_: (beside.solve(3), solver.distance(3), None)[2])
+    assert line.length == solver.path(17, 99).length
+
+
 def test_who_waits_for_a_solver_can_be_cancelled(bunny):
     solver = geotherm.Solver(bunny)
     begun, released = threading.Event(), threading.Event()

@@ -283,9 +283,9 @@ class Mesh(Model):
         """A surface of which only lengths are known: the heat method measures it.
 
         Args:
-            faces: (F, 3) vertex numbers.
+            faces: (F, 3) vertex numbers from 0 on, below 3 F.
             lengths: (F, 3): of the side opposite each corner (as igl.edge_lengths gives them), the
-                same for both faces of an edge.
+                same for both faces of an edge; from 1e-150 to 1e150.
 
         Raises: InputError, with the face whose sides are no triangle or disagree with another's.
 
