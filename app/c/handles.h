@@ -247,6 +247,7 @@ Result<SolverLock> lock_of(const Solver& solver, const Progress& progress);
 
 // lines.cpp
 
+/// Adds sentences to what there is to know of an answer.
 inline void add_warnings(Answer& answer, const std::vector<Warning>& more) {
   answer.warnings.insert(answer.warnings.end(), more.begin(), more.end());
 }
