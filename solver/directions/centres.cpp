@@ -178,11 +178,9 @@ class CentreDescent {
         auto there = place_at(*point, progress);
         if (!there && there.error().code == ErrorCode::kBadInput) continue;  // no order there
         if (!there) return there.error();
-        const double limit = here.energy * (1 - kSameEnergy);
+        const bool lower = there->energy < here.energy * (1 - kSameEnergy);
         const bool same = there->energy <= here.energy * (1 + kSameEnergy);
-        if (there->energy < limit || (same && there->residual() < here.residual() / 2)) {
-          return there;
-        }
+        if (lower || (same && there->residual() < here.residual() / 2)) return there;
       }
     }
     return Place{};
@@ -372,11 +370,10 @@ Result<Centres> find_centres(const std::shared_ptr<const TriangleMesh>& mesh,
                              std::span<const double> given_weights, const CentreOptions& options,
                              const Progress& progress) try {
   if (auto fine = check_asked(points, given_weights, options); !fine) return fine.error();
-  std::vector<double> weights(given_weights.begin(), given_weights.end());
-  if (weights.empty()) weights.assign(points.size(), 1.0);
-  // Near 1, so that sums of many stay in the range of doubles; shares are as they were.
+  std::vector<double> weights(points.size(), 1.0);
+  std::ranges::copy(given_weights, weights.begin());
   const int most = std::ilogb(*std::ranges::max_element(weights));
-  for (double& weight : weights) weight = std::scalbn(weight, -most);
+  for (double& weight : weights) weight = std::scalbn(weight, -most);  // their sums are doubles
   const int exponent = extreme_exponent(*mesh);
   if (exponent == 0) return centres_on(mesh, points, weights, options, 0, progress);
   const double unit = std::ldexp(1.0, exponent);
