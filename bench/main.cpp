@@ -128,7 +128,10 @@ bool nothing_measured(const BenchRun& run) {
 int run(const Arguments& arguments) {
   const bool silent = arguments.json == "-" || arguments.markdown == "-" || arguments.svg == "-";
   const BenchRun run = measure_all(arguments, silent ? stderr : stdout);
-  if (nothing_measured(run)) print("Nothing fits --only " + arguments.only + "\n", stderr);
+  if (nothing_measured(run)) {
+    print("geotherm_bench: error: nothing fits --only " + arguments.only + "\n", stderr);
+    return 2;
+  }
 
   const auto wrote = [](const std::string& path, const auto& make) {
     if (path.empty()) return true;

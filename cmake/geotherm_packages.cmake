@@ -92,7 +92,8 @@ triangle meshes, point clouds, tetrahedra, polygons and grids.")
 "The Python package: distances, paths and isolines in NumPy arrays, rows of
 many sources, moving surfaces.")
   install(DIRECTORY app/python/geotherm DESTINATION lib/python3/dist-packages COMPONENT python
-          EXCLUDE_FROM_ALL PATTERN __pycache__ EXCLUDE)
+          EXCLUDE_FROM_ALL PATTERN __pycache__ EXCLUDE PATTERN "*.so*" EXCLUDE
+          PATTERN ".*" EXCLUDE)
   set(CPACK_DEBIAN_PYTHON_PACKAGE_ARCHITECTURE all)
   set(CPACK_DEBIAN_PYTHON_PACKAGE_SHLIBDEPS OFF)
   set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# Builds the Debian packages of geotherm into build/packages: the program and the C++ library. They
-# install with `apt install ./build/packages/*.deb` on Debian 12.
+# Builds the Debian packages of geotherm into build/packages: the program, what it loads for MPI, the
+# C library, the Python package and the headers of both libraries. They install with `apt install ./build/packages/*.deb` on Debian 12.
 set -euo pipefail
 . "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 

@@ -140,6 +140,7 @@ Built beside(const HeatMethod& other, const MethodOptions& options, const Progre
 
 /// What works in a space that is no surface: heat and fast marching, on it as it is.
 Result<void> check_space_options(const MethodOptions& options, const std::string& space) {
+  if (auto fits = check_threads(options.threads); !fits) return fits;
   if (options.refine > 0) {
     return Error{ErrorCode::kNotAvailable,
                  "a " + space + " cannot be refined",
@@ -160,6 +161,7 @@ bool same_method(const MethodOptions& a, const MethodOptions& b) {
 
 Built build_method(std::shared_ptr<const TriangleMesh> mesh, const MethodOptions& options,
                    const Progress& progress, std::shared_ptr<const WaveSurface> waves) try {
+  if (auto fits = check_threads(options.threads); !fits) return fits.error();
   if (needs_mapping(*mesh, options)) {
     return build_mapped(std::move(mesh), options, progress, std::move(waves));
   }
@@ -186,6 +188,7 @@ Built build_method_sharing(std::shared_ptr<const TriangleMesh> mesh, const Metho
 
 Built build_method_moved(std::shared_ptr<const TriangleMesh> moved, const MethodOptions& options,
                          const DistanceMethod* earlier, const Progress& progress) try {
+  if (auto fits = check_threads(options.threads); !fits) return fits.error();
   const auto* const heat = dynamic_cast<const HeatMethod*>(earlier);
   if (heat != nullptr && options.method == MethodKind::kHeat && !needs_mapping(*moved, options)) {
     return as_heat(heat->with_mesh(std::move(moved), options, progress));

@@ -9,6 +9,7 @@
 #include "app/c/handles.h"
 #include "app/text/text.h"
 #include "solver/core/text.h"
+#include "solver/mesh/io/format_writers.h"
 
 namespace geotherm::c {
 namespace {
@@ -158,17 +159,13 @@ Result<void> write_row(const geotherm_array& array, std::int64_t row,
     }
     return {};
   }
-  constexpr double kMax = std::numeric_limits<float>::max();
-  bool fits = true;
+  if (auto fits = io::check_float_range("out", values); !fits) return fits;
   for (const double value : values) {
-    fits = fits && (value <= kMax || std::isinf(value));
     const auto rounded = static_cast<float>(value);
     std::memcpy(to, &rounded, sizeof rounded);
     to += step;
   }
-  if (fits) return {};
-  return bad_argument("a distance is above 3.4e38, the largest number of float32",
-                      {"take an array of float64"});
+  return {};
 }
 
 }  // namespace geotherm::c

@@ -68,7 +68,7 @@ geotherm_status geotherm_centres(const geotherm_model* model, const geotherm_sou
     if (auto surface = app::refuse_space(held, "centres are"); !surface) return surface;
     const auto options = centre_options(kind, method);
     if (!options) return options.error();
-    const auto of = points_in_order(points, held);
+    const auto of = points_in_order(points, held, made.warnings);
     if (!of) return of.error();
     std::vector<double> given;
     if (weights != nullptr) {
@@ -94,7 +94,7 @@ geotherm_status geotherm_centres(const geotherm_model* model, const geotherm_sou
     keep(made, "residuals", std::move(residuals));
     keep(made, "converged", std::move(converged));
     keep(made, "distances", std::move(distances), std::ssize(*of));
-    made.warnings = std::move(found->warnings);
+    add_warnings(made, found->warnings);
     return {};
   };
   return answering<const HeldModel>(model, "model", centres, "centres", watch, fill);
@@ -106,7 +106,7 @@ geotherm_status geotherm_relax(const geotherm_solver* solver, const geotherm_sou
   auto fill = [&](const Solver& held, const Progress& progress, Answer& made) -> Result<void> {
     const app::Model& model = held.model();
     if (auto surface = app::refuse_space(model, "samples are"); !surface) return surface;
-    const auto begin = points_in_order(points, model);
+    const auto begin = points_in_order(points, model, made.warnings);
     if (!begin) return begin.error();
     if (steps < 0 || steps > std::numeric_limits<int>::max()) {
       return bad_argument("steps is " + std::to_string(steps), {"give 0 or more"});

@@ -17,9 +17,10 @@ struct DirectedPoint {
 };
 
 Result<DirectedPoint> directed_point(const HeldModel& model, const geotherm_sources* point,
-                                     const char* what, const Progress& progress) {
+                                     const char* what, std::vector<Warning>& warnings,
+                                     const Progress& progress) {
   if (auto surface = app::refuse_space(model, what); !surface) return surface.error();
-  const auto points = points_in_order(point, model);
+  const auto points = points_in_order(point, model, warnings);
   if (!points) return points.error();
   if (points->size() != 1) {
     return bad_argument("point has " + std::to_string(points->size()) + " points", {"give one"});
@@ -46,7 +47,8 @@ Result<SpreadOptions> spread_options(const geotherm_options* options) {
 
 /// Each set of points as one curve, which may pass a point several times.
 Result<std::vector<SurfacePath>> curves_of(const geotherm_sources* sources, bool closed,
-                                           const HeldModel& model, const Progress& progress) {
+                                           const HeldModel& model, std::vector<Warning>& warnings,
+                                           const Progress& progress) {
   const auto sets = many_sets(sources, model);
   if (!sets) return sets.error();
   if (sources->text != nullptr && *sources->text != '\0') {
@@ -63,7 +65,7 @@ Result<std::vector<SurfacePath>> curves_of(const geotherm_sources* sources, bool
   for (std::int64_t k = 0; k < sources->sets; ++k) {
     const std::int64_t from = sources->starts[k], count = sources->starts[k + 1] - from;
     const geotherm_sources stops = {sources->points + from, count, nullptr, 0, nullptr};
-    const auto points = points_in_order(&stops, model);
+    const auto points = points_in_order(&stops, model, warnings);
     if (!points) return points.error();
     auto found = (*finder)->find(*points, {PathField::kGeodesic, closed, closed}, progress);
     if (!found) return found.error();
@@ -174,7 +176,8 @@ geotherm_status geotherm_log_map(const geotherm_model* model, const geotherm_sou
       options.method = *kind;
     }
     options.max_distance = max_distance;
-    const auto from = directed_point(held, point, "log maps are", part_of(progress, 0.0, 0.2));
+    const auto from =
+        directed_point(held, point, "log maps are", made.warnings, part_of(progress, 0.0, 0.2));
     if (!from) return from.error();
     auto found = from->directions->log_map(from->point, options, part_of(progress, 0.2, 1.0));
     if (!found) return found.error();
@@ -183,7 +186,7 @@ geotherm_status geotherm_log_map(const geotherm_model* model, const geotherm_sou
     keep(made, "frame", std::move(frame), 9);
     keep(made, "distances", std::move(found->distances));
     keep(made, "directions", std::move(found->directions));
-    made.warnings = std::move(found->warnings);
+    add_warnings(made, found->warnings);
     return {};
   };
   return answering<const HeldModel>(model, "model", map, "the answer", watch, fill);
@@ -193,7 +196,7 @@ geotherm_status geotherm_trace(const geotherm_model* model, const geotherm_sourc
                                double direction, double length, const geotherm_watch* watch,
                                geotherm_answer** line) {
   auto fill = [&](const HeldModel& held, const Progress& progress, Answer& made) -> Result<void> {
-    const auto from = directed_point(held, point, "straightest lines are", progress);
+    const auto from = directed_point(held, point, "straightest lines are", made.warnings, progress);
     if (!from) return from.error();
     auto found = from->directions->trace(from->point, direction, length);
     if (!found) return found.error();
@@ -258,7 +261,8 @@ geotherm_status geotherm_signed_distance(const geotherm_model* model,
     if (!side) return side.error();
     const auto spread = spread_options(options);
     if (!spread) return spread.error();
-    const auto lines = curves_of(curves, closed != 0, held, part_of(progress, 0.0, 0.3));
+    const auto lines =
+        curves_of(curves, closed != 0, held, made.warnings, part_of(progress, 0.0, 0.3));
     if (!lines) return lines.error();
     const SignedSetup setup = {
         [&](const Progress& part) { return held.directions(part); },
@@ -267,7 +271,7 @@ geotherm_status geotherm_signed_distance(const geotherm_model* model,
     if (!found) return found.error();
     keep(made, "distances", std::move(found->distances));
     made.texts = {{"rule", to_text(found->rule)}};
-    made.warnings = std::move(found->warnings);
+    add_warnings(made, found->warnings);
     return {};
   };
   return answering<const HeldModel>(model, "model", answer, "answer", watch, fill);

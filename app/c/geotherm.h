@@ -14,8 +14,10 @@
  * Handles: a geotherm_model, _options, _solver or _answer is a number in the shape of a pointer,
  * which nothing reads through. What is no handle, or was freed, is an error of the call, never a
  * crash. Each lives until geotherm_free(), independent of what it was made from.
- * Threads: all calls may be made from several threads at once, also with the same handles;
- * geotherm_solve() and geotherm_path() with one solver wait for each other, distances do not.
+ * Threads: all calls may be made from several threads at once, also with the same handles. With one
+ * solver geotherm_solve(), _path(), _paths(), _solver_move() and, by heat, _relax() wait for each
+ * other, distances do not; where one of them would wait for the call whose progress makes it, it is
+ * BAD_INPUT.
  * Memory: arrays that a call reads are copied before it returns; arrays that it fills are the
  * caller's. Texts belong to the library and last until the next call of the same thread.
  * Units: lengths are in the model's own. Vertices and faces are numbered from 0, as in the file or
@@ -130,8 +132,9 @@ typedef enum geotherm_kind {
   GEOTHERM_POINTS = 3,    /* positions; values: normals V x 3, or none */
   GEOTHERM_GRID = 4,      /* size, spacing, origin; values: a speed for each sample, x fastest, 0 is
                              wall; or none: 1 everywhere. The answer is travel time */
-  GEOTHERM_LENGTHS = 5 /* triangles that lie nowhere: cells F x 3, values F x 3: the length of the
-                          side opposite each corner; the heat method alone, not checked */
+  GEOTHERM_LENGTHS = 5    /* triangles that lie nowhere: cells F x 3, of vertices below 3 F, values
+                             F x 3: the length of the side opposite each corner, whose squares are
+                             doubles; the heat method alone, not checked */
 } geotherm_kind;
 
 /* A model as arrays. A mask of triangles has V numbers, or F: what has another one than 0 is left
@@ -354,13 +357,14 @@ GEOTHERM_API geotherm_status geotherm_array_of(const void* handle, const char* n
                                                geotherm_array* array);
 
 /* Texts. Models: "json" (all of `info`), "table", "name", "domain", "summary". Solvers: "json"
- * (times in ms, memory in MB, warnings). Answers of geotherm_solve(): "json", "table". Paths,
- * centres and samples: "warnings" (JSON). Lines of geotherm_trace(): "end". Signed
- * distances: "rule". */
+ * (times in ms, memory in MB, warnings). Answers of geotherm_solve(): "json", "table"; all other
+ * answers: "warnings", a JSON list of sentences. Lines of geotherm_trace(), too: "end". Signed
+ * distances, too: "rule". */
 GEOTHERM_API geotherm_status geotherm_text_of(const void* handle, const char* name,
                                               const char** text);
 
-/* Writes a model (.ply, .obj, .off, .stl), an answer (.csv, .npy, .ply, .vtp) or lines (.obj, .csv,
+/* Writes a model (.ply, .obj, .off, .stl, of tets .mesh and .vtu, too), an answer of
+ * geotherm_solve() (.csv, .npy, .ply, .vtp, of tets .vtu, of grids .vti) or lines (.obj, .csv,
  * .vtp) by the ending of the path: whole or not at all. */
 GEOTHERM_API geotherm_status geotherm_write(const void* handle, const char* path);
 

@@ -30,6 +30,19 @@ struct LastError {
 };
 thread_local LastError last_error;  // NOLINT: one a thread is what the interface promises
 thread_local std::string last_text;
+thread_local const Watched* innermost_call = nullptr;
+
+/// What is done meanwhile is done from a call, on whatever thread.
+class From {
+ public:
+  explicit From(const Watched* call) : before_(std::exchange(innermost_call, call)) {}
+  ~From() { innermost_call = before_; }
+  From(const From&) = delete;
+  From& operator=(const From&) = delete;
+
+ private:
+  const Watched* const before_;
+};
 
 // Interrupts are counted; a call that began before one of them is cancelled by it.
 std::atomic<unsigned> interrupts{0};
@@ -116,13 +129,15 @@ const char* keep_text(std::string text) {
   return last_text.c_str();
 }
 
-Watched::Watched(const geotherm_watch* watch) {
+Watched::Watched(const geotherm_watch* watch) : outer_(std::exchange(innermost_call, this)) {
   if (watch == nullptr) return;
   if (watch->interruptible == 0 && watch->progress == nullptr) return;
   progress_ = [this, from = interrupts.load(), call = watch->progress, data = watch->data](
                   std::string_view stage, double share) {
     if (interruptible_ && interrupts.load() != from) return false;
-    return call == nullptr || call(data, std::string(stage).c_str(), share) == 0;
+    if (call == nullptr) return true;
+    const From here(this);
+    return call(data, std::string(stage).c_str(), share) == 0;
   };
   // The counting begins last: where a constructor throws, no destructor would end it.
   interruptible_ = watch->interruptible != 0 && begin_counting();
@@ -130,6 +145,16 @@ Watched::Watched(const geotherm_watch* watch) {
 
 Watched::~Watched() {
   if (interruptible_) end_counting();
+  innermost_call = outer_;
+}
+
+const Watched* Watched::innermost() { return innermost_call; }
+
+bool Watched::is_within_one_that_holds(const Solver& solver) const {
+  for (const Watched* call = outer_; call != nullptr; call = call->outer_) {
+    if (call->held_ == &solver) return true;
+  }
+  return false;
 }
 
 }  // namespace geotherm::c

@@ -161,7 +161,8 @@ geotherm_status guarded(const Work& work) noexcept try {
   return keep_error({ErrorCode::kNumericalFailure, "something was thrown that is no exception"});
 }
 
-/// A watch as the library's progress, for as long as it lives.
+/// A call with its watch as the library's progress. It knows the calls from whose progress it was
+/// made, on whatever thread that was told.
 class Watched {
  public:
   explicit Watched(const geotherm_watch* watch);
@@ -170,7 +171,16 @@ class Watched {
   Watched& operator=(const Watched&) = delete;
   const Progress& progress() const { return progress_; }
 
+  /// The innermost call of this thread, null outside of all.
+  static const Watched* innermost();
+  /// Whether a call that this one was made from has locked the solver: it would wait for itself.
+  bool is_within_one_that_holds(const Solver& solver) const;
+  /// Notes what this call has locked, null for nothing.
+  void holds(const Solver* solver) const { held_ = solver; }
+
  private:
+  const Watched* const outer_;
+  mutable std::atomic<const Solver*> held_ = nullptr;
   bool interruptible_ = false;
   Progress progress_;
 };
@@ -219,11 +229,28 @@ Result<app::EachSource> many_sets(const geotherm_sources* sources, const app::Mo
 
 // solvers.cpp
 
-/// The solver's lock, once other calls have let go of it. Errors: kCancelled, also while it waits.
-Result<std::unique_lock<std::timed_mutex>> lock_of(const Solver& solver, const Progress& progress);
+/// The lock of a solver, which the innermost call of the thread holds.
+class SolverLock {
+ public:
+  SolverLock(std::unique_lock<std::timed_mutex> lock, const Solver& solver);
+  SolverLock(SolverLock&&) = default;
+  ~SolverLock() { unlock(); }
+  void unlock();
+
+ private:
+  std::unique_lock<std::timed_mutex> lock_;
+};
+
+/// The solver's lock, once other calls have let go of it. Errors: kBadInput (asked for from the
+/// progress of the call that has it), kCancelled, also while it waits.
+Result<SolverLock> lock_of(const Solver& solver, const Progress& progress);
 
 // lines.cpp
 
+/// Adds sentences to what there is to know of an answer.
+inline void add_warnings(Answer& answer, const std::vector<Warning>& more) {
+  answer.warnings.insert(answer.warnings.end(), more.begin(), more.end());
+}
 /// Keeps an array with an answer.
 void keep(const Answer& answer, std::string name, auto values, std::int64_t columns = 1) {
   answer.arrays.push_back(
@@ -231,8 +258,10 @@ void keep(const Answer& answer, std::string name, auto values, std::int64_t colu
 }
 /// The arrays of Answer::lines.
 void keep_lines(const Answer& answer);
-/// The points of all sources, in their order. Errors: kBadInput.
+/// The points of all sources, in their order. Adds to `warnings` what there is to know of their
+/// places. Errors: kBadInput.
 Result<std::vector<SurfacePoint>> points_in_order(const geotherm_sources* sources,
-                                                  const app::Model& model);
+                                                  const app::Model& model,
+                                                  std::vector<Warning>& warnings);
 
 }  // namespace geotherm::c

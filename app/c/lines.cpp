@@ -2,6 +2,7 @@
 // Paths, isolines, samples.
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <memory>
 #include <span>
 #include <utility>
@@ -10,6 +11,7 @@
 #include "app/c/handles.h"
 #include "app/session/wording.h"
 #include "geotherm/path.h"
+#include "solver/core/text.h"
 #include "solver/path/shorten.h"
 
 namespace geotherm::c {
@@ -102,15 +104,20 @@ void keep_lines(const Answer& answer) {
 }
 
 Result<std::vector<SurfacePoint>> points_in_order(const geotherm_sources* sources,
-                                                  const Model& model) {
+                                                  const Model& model,
+                                                  std::vector<Warning>& warnings) {
   const auto each = many_sets(sources, model);
   if (!each) return each.error();
+  warnings.insert(warnings.end(), each->warnings.begin(), each->warnings.end());
   std::vector<SurfacePoint> points;
   for (const SourceSet& set : each->sets) {
     const SurfacePoint* const point = app::only_point(set);
     if (point == nullptr || !set.offsets.empty()) {
-      return bad_argument("point " + std::to_string(points.size()) + " of the path is none",
-                          {"give a vertex, a point in a face or a place, without offset"});
+      return bad_argument(
+          "point " + std::to_string(points.size()) +
+              (point == nullptr ? " is several, or none"
+                                : " has the offset " + number_text(set.offsets.front())),
+          {"give a vertex, a point in a face or a place, without offset"});
     }
     points.push_back(*point);
   }
@@ -135,7 +142,7 @@ geotherm_status geotherm_path(const geotherm_solver* solver, const geotherm_sour
     }
     const Model& model = held.model();
     if (auto surface = app::refuse_space(model, "paths are"); !surface) return surface;
-    const auto points = points_in_order(through, model);
+    const auto points = points_in_order(through, model, made.warnings);
     if (!points) return points.error();
     auto lock = lock_of(held, progress);
     if (!lock) return lock.error();
@@ -152,7 +159,7 @@ geotherm_status geotherm_path(const geotherm_solver* solver, const geotherm_sour
       if (!shorter) return shorter.error();
       found->path = *std::move(shorter);
     }
-    made.warnings = std::move(found->warnings);
+    add_warnings(made, found->warnings);
     made.lines = Lines{model.mesh, {{0, std::move(found->path)}}, false};
     keep_lines(made);
     return {};
@@ -166,8 +173,9 @@ geotherm_status geotherm_paths(const geotherm_solver* solver, const geotherm_sou
   auto fill = [&](const Solver& held, const Progress& progress, Answer& made) -> Result<void> {
     const Model& model = held.model();
     if (auto surface = app::refuse_space(model, "paths are"); !surface) return surface;
-    const auto begin = points_in_order(from, model), ends = points_in_order(to, model);
+    const auto begin = points_in_order(from, model, made.warnings);
     if (!begin) return begin.error();
+    const auto ends = points_in_order(to, model, made.warnings);
     if (!ends) return ends.error();
     if (begin->size() != 1 || ends->empty()) {
       return bad_argument("from has " + std::to_string(begin->size()) + " points, and to " +
@@ -211,9 +219,12 @@ geotherm_status geotherm_isolines(const geotherm_model* model, const geotherm_ar
     }
     const auto asked = numbers_in(*levels, 1, "levels");
     if (!asked) return asked.error();
-    const bool finite = std::ranges::all_of(*asked, [](double x) { return std::isfinite(x); });
-    if (!finite || !std::ranges::is_sorted(*asked)) {
-      return bad_argument("levels must be finite and ascend");
+    for (std::size_t i = 0; i < asked->size(); ++i) {
+      const double level = (*asked)[i];
+      if (std::isfinite(level) && (i == 0 || level >= (*asked)[i - 1])) continue;
+      return bad_argument("levels: number " + std::to_string(i) + " is " + number_text(level) +
+                              (i == 0 ? "" : ", after " + number_text((*asked)[i - 1])),
+                          {"give finite numbers that ascend"});
     }
     auto found = find_isolines(mesh, *at_vertices, *asked);
     if (!found) return found.error();

@@ -2,6 +2,8 @@
 // Options, what the build has, and models.
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <functional>
 #include <memory>
 #include <utility>
 
@@ -9,6 +11,7 @@
 #include "app/session/length_space.h"
 #include "app/session/model.h"
 #include "app/session/settings.h"
+#include "app/text/text.h"
 #include "geotherm/accuracy.h"
 #include "geotherm/backend.h"
 #include "geotherm/domains.h"
@@ -101,7 +104,13 @@ Result<Model> build_triangles(const geotherm_shape& shape) {
   const bool of_faces =
       std::ssize(*marks) == mesh->face_count() && std::ssize(*marks) != mesh->vertex_count();
   auto& list = of_faces ? mask.faces : mask.vertices;
-  for (const double mark : *marks) list.push_back(mark != 0 ? 1 : 0);
+  for (const double mark : *marks) {
+    if (std::isnan(mark)) {
+      return bad_argument("mask: number " + std::to_string(list.size()) + " is nan",
+                          {"give 0 where something stays and 1 where it is left out"});
+    }
+    list.push_back(mark != 0 ? 1 : 0);
+  }
   auto left = masked(*mesh, mask);
   if (!left) return left.error();
   return app::model_of(*std::move(left));
@@ -114,11 +123,25 @@ Result<Model> build_polygons(const geotherm_shape& shape) {
   if (!corners) return corners.error();
   const auto starts = indices_in(shape.starts, 1, "starts");
   if (!starts) return starts.error();
-  const bool fits = starts->size() > 1 && starts->front() == 0 && std::ranges::is_sorted(*starts) &&
-                    starts->back() == std::ssize(*corners);
-  if (!fits) {
-    return bad_argument("starts must ascend from 0 to the number of corners, " +
-                        std::to_string(corners->size()));
+  const auto wrong_start = [&](std::size_t number, const std::string& cure) {
+    return bad_argument(
+        "starts: number " + std::to_string(number) + " is " + std::to_string((*starts)[number]),
+        {cure});
+  };
+  if (starts->size() < 2) {
+    return bad_argument(
+        "there is no face: starts has " + app::counted(std::ssize(*starts), "number", "numbers"),
+        {"give one more than there are faces"});
+  }
+  if (starts->front() != 0) return wrong_start(0, "begin with 0");
+  const auto falls = std::ranges::adjacent_find(*starts, std::ranges::greater());
+  if (falls != starts->end()) {
+    return wrong_start(static_cast<std::size_t>(falls - starts->begin()) + 1,
+                       "give numbers that ascend");
+  }
+  if (starts->back() != std::ssize(*corners)) {
+    return wrong_start(starts->size() - 1,
+                       "end with the number of corners, " + std::to_string(corners->size()));
   }
   return app::model_of(
       PolygonMesh{*std::move(positions), {starts->begin(), starts->end()}, *std::move(corners)});
@@ -283,10 +306,7 @@ geotherm_status geotherm_model_build(const geotherm_shape* shape, const geotherm
     if (!built) return built.error();
     built->name = "model";
     if (const auto eps = reading_of(*asked).weld) {
-      if (auto surface = app::refuse_space(*built, "welded vertices are"); !surface) return surface;
-      auto welded = weld(*built->mesh, *eps);
-      if (!welded) return welded.error();
-      built->mesh = std::make_shared<const TriangleMesh>(std::move(welded->mesh));
+      if (auto done = app::weld_model(*eps, *built); !done) return done;
     }
     hand_out(std::make_shared<const HeldModel>(*std::move(built)), model);
     return {};

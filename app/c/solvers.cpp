@@ -184,12 +184,27 @@ Result<app::Wanted> wanted_by(const Solver& solver, std::string_view words) {
 
 }  // namespace
 
-Result<std::unique_lock<std::timed_mutex>> lock_of(const Solver& solver, const Progress& progress) {
+SolverLock::SolverLock(std::unique_lock<std::timed_mutex> lock, const Solver& solver)
+    : lock_(std::move(lock)) {
+  Watched::innermost()->holds(&solver);
+}
+
+void SolverLock::unlock() {
+  if (!lock_.owns_lock()) return;
+  Watched::innermost()->holds(nullptr);
+  lock_.unlock();
+}
+
+Result<SolverLock> lock_of(const Solver& solver, const Progress& progress) {
+  if (Watched::innermost()->is_within_one_that_holds(solver)) {
+    return bad_argument("the solver is at work for the call whose progress asks it",
+                        {"ask it when that call has returned, or another solver"});
+  }
   std::unique_lock lock(solver.lock, std::defer_lock);
   while (!lock.try_lock_for(std::chrono::milliseconds(20))) {
     if (!report(progress, "waiting for the solver", -1)) return cancelled_error();
   }
-  return lock;
+  return SolverLock(std::move(lock), solver);
 }
 
 }  // namespace geotherm::c

@@ -9,6 +9,7 @@
 #include "app/session/sources.h"
 #include "app/session/wording.h"
 #include "app/text/text.h"
+#include "solver/core/text.h"
 
 namespace geotherm::c {
 namespace {
@@ -37,7 +38,8 @@ Result<app::SourceSpec> spec_of(const geotherm_source& point) {
                         std::to_string(point.id));
   }
   if (!(point.offset >= 0) || !std::isfinite(point.offset)) {
-    return bad_argument("the offset must be a length that is not negative");
+    return bad_argument("the offset is " + number_text(point.offset),
+                        {"give a length that is not negative"});
   }
   const auto id = static_cast<Index>(point.id);
   switch (point.kind) {
@@ -63,8 +65,10 @@ Result<app::SourceSpec> spec_of(const geotherm_source& point) {
     for (std::size_t k = 0; k < 3; ++k) weights[k] = std::max(point.at[k], 0.0) / sum;
     return app::SourceSpec(app::FacePoint{id, weights, point.offset});
   }
-  return bad_argument("the weights in face " + std::to_string(id) +
-                      " must not be negative and have the sum 1");
+  return bad_argument("the weights in face " + std::to_string(id) + " are " +
+                          number_text(point.at[0]) + ", " + number_text(point.at[1]) + " and " +
+                          number_text(point.at[2]),
+                      {"give three that are not negative and have the sum 1"});
 }
 
 Result<std::vector<Source>> named_sources(const char* text) {

@@ -163,7 +163,7 @@ Result<std::string> text_in(const Answer& answer, const std::string& name) {
 
 /// Errors (kBadInput): a surface of edge lengths, in a file with places of vertices.
 Result<void> has_places(const Model& model) {
-  if (!model.space || std::string_view(model.space->words().domain) != "lengths") return {};
+  if (!model.space || model.space->has_places()) return {};
   return bad_argument(model.name + " is a surface of edge lengths, whose vertices have no places",
                       {"write distances as .npy or .csv"});
 }

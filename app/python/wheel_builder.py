@@ -196,16 +196,16 @@ def build_editable(
 
 
 def build_sdist(sdist_directory: str, config_settings: Settings = None) -> str:
-    """What is under version control, as far as the library and the package need it."""
+    """What the library and the package are built from, without what was built or is hidden."""
     base = f"geotherm-{_version()}"
+    tops = ["pyproject.toml", "CMakeLists.txt", "README.md", "LICENSE", "cmake", "solver", "app"]
+    left_out = re.compile(r"\.|__pycache__$|.*\.so(\.|$)")
     with tarfile.open(Path(sdist_directory) / f"{base}.tar.gz", "w:gz") as archive:
-        for top in ("pyproject.toml", "CMakeLists.txt", "README.md", "LICENSE", "cmake", "solver"):
-            archive.add(_ROOT / top, f"{base}/{top}")
-        for top in ("app", "bench/models", "assets/models"):
+        for top in [*tops, "bench/models", "assets/models"]:
             archive.add(
                 _ROOT / top,
                 f"{base}/{top}",
-                filter=lambda entry: None if "__pycache__" in entry.name else entry,
+                filter=lambda entry: None if left_out.match(Path(entry.name).name) else entry,
             )
         text = _metadata()["METADATA"]
         entry = tarfile.TarInfo(f"{base}/PKG-INFO")

@@ -24,8 +24,14 @@ struct KnownEdge {
 };
 using KnownEdges = std::map<std::array<Index, 2>, KnownEdge>;
 
-Error about_face(std::size_t face, const std::string& what) {
-  return {ErrorCode::kBadInput, "lengths: face " + std::to_string(face) + " " + what};
+Error about_face(std::size_t face, const std::string& what, Hint hint = {}) {
+  return {ErrorCode::kBadInput, "lengths: face " + std::to_string(face) + " " + what,
+          std::move(hint)};
+}
+
+std::string sides_in_words(const Lengths& sides) {
+  return "has sides of " + number_text(sides[0]) + ", " + number_text(sides[1]) + " and " +
+         number_text(sides[2]);
 }
 
 Result<KnownEdges> edges_of(const std::vector<Face>& faces, const std::vector<Lengths>& lengths) {
@@ -57,23 +63,37 @@ std::array<Eigen::Vector2d, 3> laid_out(const Lengths& opposite) {
           Eigen::Vector2d(x, std::sqrt(std::max(b * b - x * x, 0.0)))};
 }
 
-/// Adds a face as a cell; false where its sides are no triangle with an area.
-bool add_cell(CellComplex& cells, const Face& face, const Lengths& opposite) {
-  const auto at = laid_out(opposite);
-  const double twice_area = at[1].x() * at[2].y();
+/// Adds a face as a cell. Errors (kBadInput): sides that are no triangle with an area, or with one
+/// beyond the range of doubles.
+Result<void> add_cell(CellComplex& cells, std::size_t number, const Face& face,
+                      const Lengths& opposite) {
   const double longest = std::ranges::max(opposite);
+  const int exponent = std::ilogb(longest);  // in such units squares of lengths are doubles
+  Lengths in_unit = opposite;
+  for (double& length : in_unit) length = std::scalbn(length, -exponent);
+  const auto at = laid_out(in_unit);
+  const double twice_area = at[1].x() * at[2].y();
+  const double longest_in_unit = std::ranges::max(in_unit);
   constexpr double kFlat = 1e-10;  // of the height, as a share of the longest side
-  if (!(twice_area > kFlat * longest * longest)) return false;
+  if (!(twice_area > kFlat * longest_in_unit * longest_in_unit)) {
+    return about_face(number, sides_in_words(opposite) + ", which are no triangle with an area");
+  }
+  const double area = std::scalbn(twice_area / 2, 2 * exponent);
+  if (!std::isnormal(area)) {
+    return about_face(number,
+                      sides_in_words(opposite) + ", and an area beyond the range of doubles",
+                      {"give lengths in another unit, from 1e-150 to 1e150"});
+  }
   for (std::size_t k = 0; k < 3; ++k) {
     const Eigen::Vector2d side = at[(k + 2) % 3] - at[(k + 1) % 3];
-    cells.gradients.push_back(-side.y() / twice_area);
-    cells.gradients.push_back(side.x() / twice_area);
+    cells.gradients.push_back(std::scalbn(-side.y() / twice_area, -exponent));
+    cells.gradients.push_back(std::scalbn(side.x() / twice_area, -exponent));
     cells.corners.push_back(face[k]);
   }
   cells.start.push_back(std::ssize(cells.corners));
-  cells.measures.push_back(twice_area / 2);
+  cells.measures.push_back(area);
   cells.widths.push_back(longest);
-  return true;
+  return {};
 }
 
 }  // namespace
@@ -86,6 +106,14 @@ Result<std::shared_ptr<const LengthSpace>> LengthSpace::build(const std::vector<
                                                               const std::vector<Lengths>& lengths) {
   Index last = kNoIndex;
   for (const Face& face : faces) last = std::max(last, std::ranges::max(face));
+  const auto corners = 3 * std::ssize(faces);  // no more vertices are in use, and each takes memory
+  if (!faces.empty() && last >= corners) {
+    return Error{ErrorCode::kBadInput,
+                 "faces: there is a vertex " + std::to_string(last) + ", and " +
+                     counted(std::ssize(faces), "face has", "faces have") + " at most " +
+                     counted(corners, "vertex", "vertices"),
+                 {"number vertices from 0 on without gaps"}};
+  }
   auto drawn = TriangleMesh::build(
       std::vector<Vec3>(static_cast<std::size_t>(last) + 1, Vec3::Zero()), faces);
   if (!drawn) return drawn.error();
@@ -98,10 +126,7 @@ Result<std::shared_ptr<const LengthSpace>> LengthSpace::build(const std::vector<
   cells.cell_name = "face";
   cells.cells_name = "faces";
   for (std::size_t f = 0; f < faces.size(); ++f) {
-    if (add_cell(cells, faces[f], lengths[f])) continue;
-    return about_face(f, "has sides of " + number_text(lengths[f][0]) + ", " +
-                             number_text(lengths[f][1]) + " and " + number_text(lengths[f][2]) +
-                             ", which are no triangle with an area");
+    if (auto added = add_cell(cells, f, faces[f], lengths[f]); !added) return added.error();
   }
   cells.on_boundary.assign(static_cast<std::size_t>(cells.vertices), 0);
   for (const auto& [ends, edge] : *edges) {

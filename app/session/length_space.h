@@ -16,8 +16,9 @@ namespace geotherm::app {
 class LengthSpace final : public CellSpace {
  public:
   /// lengths[f][k]: of the side opposite corner k of face f, model units. Errors (kBadInput, with
-  /// the face): those of TriangleMesh::build(), a length that is not above 0, three lengths that
-  /// are no triangle, an edge that has another length in another face (by more than 1e-6 of it).
+  /// the number): those of TriangleMesh::build(), a vertex from 3 F on, a length that is not above
+  /// 0, three lengths that are no triangle or have an area beyond the range of doubles, an edge
+  /// that has another length in another face (by more than 1e-6 of it).
   static Result<std::shared_ptr<const LengthSpace>> build(
       const std::vector<Face>& faces, const std::vector<std::array<double, 3>>& lengths);
 
@@ -27,6 +28,7 @@ class LengthSpace final : public CellSpace {
   std::vector<SpaceFigure> figures() const override;
   std::vector<Index> cells_of_faces() const override;
   Vec3 gradient_on(Index cell, std::span<const double> values) const override;
+  bool has_places() const override { return false; }
   std::string unseen() const override { return "it lies nowhere, so that nothing is drawn of it"; }
   /// Errors: kBadInput, always.
   Result<PlacedPoint> closest_point(const Vec3& place) const override;

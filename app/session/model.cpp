@@ -135,15 +135,18 @@ Result<Model> load_model(const std::string& text, const ModelReading& reading,
     if (auto done = leave_out(reading.mask, *model); !done) return done.error();
   }
   if (!model || !reading.weld) return model;
-  if (auto surface = refuse_space(*model, "welded vertices are"); !surface) {
-    return surface.error();
-  }
   if (!report(progress, "welding", -1)) return cancelled_error();
-  auto welded = weld(*model->mesh, *reading.weld);
-  if (!welded) return welded.error();
-  model->notes.push_back({weld_note(welded->merged, *reading.weld)});
-  model->mesh = std::make_shared<const TriangleMesh>(std::move(welded->mesh));
+  if (auto done = weld_model(*reading.weld, *model); !done) return done.error();
   return model;
+}
+
+Result<void> weld_model(double distance, Model& model) {
+  if (auto surface = refuse_space(model, "welded vertices are"); !surface) return surface;
+  auto welded = weld(*model.mesh, distance);
+  if (!welded) return welded.error();
+  model.notes.push_back({weld_note(welded->merged, distance)});
+  model.mesh = std::make_shared<const TriangleMesh>(std::move(welded->mesh));
+  return {};
 }
 
 namespace {

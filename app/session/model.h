@@ -87,6 +87,10 @@ inline Model unnamed(Model model) {
 Result<Model> load_model(const std::string& text, const ModelReading& reading = {},
                          const Progress& progress = {});
 
+/// Makes one of the vertices that are at most this far apart, and notes how many there were. Errors
+/// (kBadInput): a model that is no triangle mesh, those of weld().
+Result<void> weld_model(double distance, Model& model);
+
 /// The model in a file, a pipe or standard input (kStandardInput) by what it holds, or is taken
 /// for. It is opened once. Errors: those of load_model().
 Result<Model> read_model(const std::string& path, const ModelReading& reading,

@@ -99,6 +99,12 @@ Result<Model> model_of(const PolygonMesh& mesh) {
 Result<Model> model_of(TetMesh volume) {
   auto space = TetSpace::build(std::move(volume));
   if (!space) return space.error();
+  if ((*space)->border().faces.empty()) {
+    return Error{
+        ErrorCode::kBadInput,
+        "the volume of " + counted((*space)->cell_count(), "tet", "tets") + " has no border",
+        {"give tets of four different vertices each"}};
+  }
   const auto positions = (*space)->tets()->positions();
   auto mesh = TriangleMesh::build({positions.begin(), positions.end()}, (*space)->border().faces);
   if (!mesh) return mesh.error();

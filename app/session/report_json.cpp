@@ -157,6 +157,9 @@ Json space_json(const Model& model, const MeshReport& mesh) {
                  {"boundary_edges", mesh.boundary_edges},
                  {"boundary_loops", mesh.boundary_loops},
                  {"area", mesh.area}}}});
+  if (!model.space->has_places()) {
+    for (const char* const key : {"duplicate_positions", "box_min", "box_max"}) json.erase(key);
+  }
   return json;
 }
 

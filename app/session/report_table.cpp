@@ -220,10 +220,10 @@ std::string vector_in_words(const Vec3& v) {
   return "(" + significant(v[0]) + ", " + significant(v[1]) + ", " + significant(v[2]) + ")";
 }
 
-/// `cell`: "face", or what the vertices of a space belong to.
-std::string vertices_in_words(const MeshReport& mesh, const std::string& cell) {
+/// `cell`: "face", or what the vertices of a space belong to. `placed`: they lie somewhere.
+std::string vertices_in_words(const MeshReport& mesh, const std::string& cell, bool placed = true) {
   return grouped(mesh.vertices) + " (" + grouped(mesh.unreferenced_vertices) + " in no " + cell +
-         ", " + grouped(mesh.duplicate_positions) + " where another one lies)";
+         (placed ? ", " + grouped(mesh.duplicate_positions) + " where another one lies)" : ")");
 }
 
 /// The figures of a space: what is drawn of it has figures of no interest.
@@ -232,12 +232,14 @@ std::string space_table(const Model& model, const MeshReport& mesh) {
   TextTable table = two_columns();
   table.add_row({"model", one_line(model.name)});
   table.add_row({"domain", space.described()});
-  table.add_row({"vertices", vertices_in_words(mesh, space.words().cell)});
+  table.add_row({"vertices", vertices_in_words(mesh, space.words().cell, space.has_places())});
   for (const SpaceFigure& figure : space.figures()) {
     if (!figure.row.empty()) table.add_row({figure.row, figure.text});
   }
   table.add_row({"components", grouped(mesh.components)});
-  table.add_row({"box", vector_in_words(mesh.box_min) + " to " + vector_in_words(mesh.box_max)});
+  if (space.has_places()) {
+    table.add_row({"box", vector_in_words(mesh.box_min) + " to " + vector_in_words(mesh.box_max)});
+  }
   table.add_row({"load", ms(model.load_ms)});
   return table.text();
 }

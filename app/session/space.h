@@ -65,6 +65,8 @@ class Space {
   virtual std::shared_ptr<const TetMesh> tets() const { return nullptr; }
   /// Samples along x, y and z; zeros where vertices are no samples of a grid.
   virtual std::array<Index, 3> size() const { return {}; }
+  /// Whether its vertices lie anywhere.
+  virtual bool has_places() const { return true; }
   /// Whether the answer is travel time, not a length.
   virtual bool measures_time() const { return false; }
   /// What `info` says of it, in one line and in figures. Cost: a pass over the cells.

@@ -189,7 +189,8 @@ std::string in_dollar_quotes(std::string_view word) {
 std::string shell_command(std::string program, const std::vector<std::string>& words) {
   for (const std::string& word : words) {
     program += ' ';
-    if (!word.empty() && word.find_first_not_of(kUnquoted) == std::string::npos) {
+    const bool plain = !word.empty() && word.find_first_not_of(kUnquoted) == std::string::npos;
+    if (plain && word[0] != '=') {  // which zsh takes for a program's path
       program += word;
     } else {
       program += fits_a_line(word) ? in_quotes(word) : in_dollar_quotes(word);

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <exception>
 #include <mutex>
+#include <string>
 #include <string_view>
 #include <system_error>
 #include <thread>
@@ -21,6 +22,14 @@ namespace geotherm {
 inline int thread_count(int requested) {
   if (requested > 0) return requested;
   return std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+}
+
+/// Errors: kBadInput, a negative number where threads are counted.
+inline Result<void> check_threads(int requested) {
+  if (requested >= 0) return {};
+  return Error{ErrorCode::kBadInput,
+               "the number of threads is " + std::to_string(requested),
+               {"give 0 for all cores, or more"}};
 }
 
 /// A thread that runs `work`. Where the system has none left it is not joinable, and `work` does

@@ -178,11 +178,9 @@ class CentreDescent {
         auto there = place_at(*point, progress);
         if (!there && there.error().code == ErrorCode::kBadInput) continue;  // no order there
         if (!there) return there.error();
-        const double limit = here.energy * (1 - kSameEnergy);
+        const bool lower = there->energy < here.energy * (1 - kSameEnergy);
         const bool same = there->energy <= here.energy * (1 + kSameEnergy);
-        if (there->energy < limit || (same && there->residual() < here.residual() / 2)) {
-          return there;
-        }
+        if (lower || (same && there->residual() < here.residual() / 2)) return there;
       }
     }
     return Place{};
@@ -222,7 +220,7 @@ Result<void> check_asked(std::span<const SurfacePoint> points, std::span<const d
                  "weight " + std::to_string(bad - weights.begin()) + " is " + number_text(*bad),
                  {"give numbers from 0 on"}};
   }
-  if (!weights.empty() && !(std::accumulate(weights.begin(), weights.end(), 0.0) > 0)) {
+  if (!weights.empty() && *std::ranges::max_element(weights) == 0) {
     return Error{ErrorCode::kBadInput, "all weights are 0", {"give one that is above"}};
   }
   if (options.max_steps >= 1) return {};
@@ -372,8 +370,10 @@ Result<Centres> find_centres(const std::shared_ptr<const TriangleMesh>& mesh,
                              std::span<const double> given_weights, const CentreOptions& options,
                              const Progress& progress) try {
   if (auto fine = check_asked(points, given_weights, options); !fine) return fine.error();
-  const std::vector<double> ones(points.size(), 1.0);
-  const std::span<const double> weights = given_weights.empty() ? ones : given_weights;
+  std::vector<double> weights(points.size(), 1.0);
+  std::ranges::copy(given_weights, weights.begin());
+  const int most = std::ilogb(*std::ranges::max_element(weights));
+  for (double& weight : weights) weight = std::scalbn(weight, -most);  // their sums are doubles
   const int exponent = extreme_exponent(*mesh);
   if (exponent == 0) return centres_on(mesh, points, weights, options, 0, progress);
   const double unit = std::ldexp(1.0, exponent);

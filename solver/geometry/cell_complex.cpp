@@ -57,6 +57,10 @@ Result<void> check_sizes(const CellComplex& cells) {
     }
   }
   if (!std::ranges::is_sorted(cells.numbers)) return bad_cells("the numbers do not ascend");
+  if (!cells.numbers.empty() && cells.numbers.front() < 0) {
+    return bad_cells("the number of " + cells.cell_name + " 0 is " +
+                     std::to_string(cells.numbers.front()) + "; it must not be negative");
+  }
   if (!cells.on_boundary.empty() && cells.on_boundary.size() != vertices) {
     return bad_size("boundary flags", cells.on_boundary.size(), vertices);
   }

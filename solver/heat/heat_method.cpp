@@ -34,6 +34,7 @@ int setup_threads(const HeatOptions& options, const Domain::Input& input) {
 }
 
 Result<void> check_options(const HeatOptions& options) {
+  if (auto fits = check_threads(options.threads); !fits) return fits;
   const TimeStep& step = options.time_step;
   const bool absolute = step.rule == TimeRule::kAbsolute;
   const double value = absolute ? step.absolute : step.factor;

@@ -82,6 +82,7 @@ TEST(ShellCommand, QuotesWhatAShellWouldTakeApart) {
   EXPECT_EQ(shell_command("geotherm", {"render", "a b.obj", "it's", "", "-s", "3,9"}),
             "geotherm render 'a b.obj' 'it'\\''s' '' -s 3,9");
   EXPECT_EQ(shell_command("g", {"\xc3\xa4.obj"}), "g '\xc3\xa4.obj'");
+  EXPECT_EQ(shell_command("g", {"=a.obj", "b=a"}), "g '=a.obj' b=a") << "zsh: the path of a.obj";
   EXPECT_EQ(shell_command("g", {"new\nline", "a\xff\\b"}), "g $'new\\012line' $'a\\377\\\\b'");
 }
 

@@ -162,6 +162,33 @@ TEST_F(CDirections, RelaxingOnePointLeadsToTheMiddle) {
   geotherm_free(solver);
 }
 
+TEST_F(CDirections, PlacesFarFromTheModelAreWarnedOf) {
+  geotherm_solver* solver = nullptr;
+  ASSERT_EQ(geotherm_solver_new(model, nullptr, nullptr, &solver), GEOTHERM_OK);
+  const geotherm_source places[] = {{GEOTHERM_XYZ, 0, {1, 0.5, 1e6}, 0},
+                                    {GEOTHERM_VERTEX, 2, {}, 0}};
+  const std::int64_t starts[] = {0, 2};
+  const geotherm_sources far = {places, 1, nullptr, 0, nullptr};
+  const geotherm_sources both = {places, 2, nullptr, 0, nullptr};
+  const geotherm_sources line = {places, 2, starts, 1, nullptr};
+  for (int call = 0; call < 7; ++call) {
+    const geotherm_status status =
+        call == 0   ? geotherm_path(solver, &both, nullptr, 0, nullptr, &answer)
+        : call == 1 ? geotherm_paths(solver, &point, &both, nullptr, &answer)
+        : call == 2 ? geotherm_relax(solver, &both, 1, nullptr, &answer)
+        : call == 3 ? geotherm_log_map(model, &far, nullptr, INFINITY, nullptr, &answer)
+        : call == 4 ? geotherm_trace(model, &far, 0, 0.1, nullptr, &answer)
+        : call == 5 ? geotherm_centres(model, &both, nullptr, nullptr, nullptr, nullptr, &answer)
+                    : geotherm_signed_distance(model, nullptr, &line, 0, "heat", nullptr, &answer);
+    ASSERT_EQ(status, GEOTHERM_OK) << call;
+    const char* text = nullptr;
+    ASSERT_EQ(geotherm_text_of(answer, "warnings", &text), GEOTHERM_OK) << call;
+    EXPECT_NE(std::string(text).find("1e+06 away"), std::string::npos) << call << ": " << text;
+    geotherm_free(answer);
+  }
+  geotherm_free(solver);
+}
+
 TEST_F(CDirections, WhatIsNullIsAnError) {
   EXPECT_EQ(geotherm_log_map(nullptr, &point, nullptr, 1, nullptr, &answer), GEOTHERM_BAD_INPUT);
   EXPECT_EQ(geotherm_log_map(model, &point, nullptr, 1, nullptr, nullptr), GEOTHERM_BAD_INPUT);

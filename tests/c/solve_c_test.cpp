@@ -157,6 +157,44 @@ TEST_F(CSolve, ProgressCancelsAndLeavesTheSolverAsItWas) {
   EXPECT_EQ(distance(17)[17], 0);
 }
 
+TEST_F(CSolve, ItsOwnProgressIsRefusedWhatWouldWaitForItself) {
+  struct Own {
+    const geotherm_solver* solver;
+    std::vector<double> positions;
+    std::vector<geotherm_status> found;
+    std::string said;
+  } own = {solver, std::vector<double>(static_cast<std::size_t>(3 * vertices)), {}, {}};
+  const auto ask = [](void* data, const char*, double) {
+    Own& all = *static_cast<Own*>(data);
+    if (!all.found.empty()) return 0;  // once is enough
+    const std::vector<geotherm_source> ends = {{GEOTHERM_VERTEX, 17, {}, 0},
+                                               {GEOTHERM_VERTEX, 900, {}, 0}};
+    const geotherm_sources one = {ends.data(), 1, nullptr, 0, nullptr};
+    const geotherm_sources both = {ends.data(), 2, nullptr, 0, nullptr};
+    const geotherm_array moved = array_of<double, GEOTHERM_FLOAT64>(all.positions, 3);
+    geotherm_answer* answer = nullptr;
+    geotherm_solver* next = nullptr;
+    all.found = {geotherm_solve(all.solver, &one, nullptr, nullptr, &answer),
+                 geotherm_path(all.solver, &both, nullptr, 0, nullptr, &answer),
+                 geotherm_paths(all.solver, &one, &both, nullptr, &answer),
+                 geotherm_relax(all.solver, &both, 1, nullptr, &answer),
+                 geotherm_solver_move(all.solver, &moved, nullptr, &next, nullptr)};
+    const char* message = nullptr;
+    geotherm_last_error(&message, nullptr);
+    all.said = message;
+    return 0;
+  };
+  const geotherm_watch watch = {ask, &own, 0};
+  const geotherm_sources sources = {nullptr, 0, nullptr, 0, "17"};
+  geotherm_answer* answer = nullptr;
+  ASSERT_EQ(geotherm_solve(solver, &sources, nullptr, &watch, &answer), GEOTHERM_OK);
+  EXPECT_EQ(own.found, std::vector<geotherm_status>(5, GEOTHERM_BAD_INPUT));
+  EXPECT_EQ(own.said, "the solver is at work for the call whose progress asks it");
+  geotherm_free(answer);
+  ASSERT_EQ(geotherm_solve(solver, &sources, nullptr, nullptr, &answer), GEOTHERM_OK);
+  geotherm_free(answer);
+}
+
 std::atomic<int> interrupts{0};
 
 TEST_F(CSolve, AnInterruptCancelsAndReachesTheProgramsOwnHandler) {

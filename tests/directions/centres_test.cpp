@@ -86,6 +86,23 @@ TEST(Centres, MeanOnThePlaneIsTheCentroid) {
   }
 }
 
+/// Weights are shares of their sum, also where that is no double.
+TEST(Centres, WeightsOfAnySizeAreShares) {
+  const MeshPtr mesh = finish(jittered_plane(12, 0.3, 1));
+  const std::vector<SurfacePoint> points = mixed_points();
+  const std::vector<double> weights = {1, 2, 0.5, 3, 1, 0, 1.5};
+  for (const CentreKind kind : {CentreKind::kMean, CentreKind::kMedian}) {
+    const Centre expected = centres(mesh, points, weights, kind).found.front();
+    for (const double unit : {0x1p1022, 0x1p-1070}) {
+      std::vector<double> scaled = weights;
+      for (double& weight : scaled) weight *= unit;
+      const Centre centre = centres(mesh, points, scaled, kind).found.front();
+      EXPECT_EQ(centre.energy, expected.energy) << unit;
+      EXPECT_EQ(centre.distances, expected.distances) << unit;
+    }
+  }
+}
+
 TEST(Centres, MedianOfFourPointsIsWhereTheDiagonalsCross) {
   const MeshPtr mesh = finish(jittered_plane(12, 0.3, 2));
   const std::vector<Index> corners = {grid_vertex(12, 1, 2), grid_vertex(12, 10, 1),

@@ -100,6 +100,7 @@ const BadOption kBadOptions[] = {
        o.constraint = {ConstraintMode::kPenalty, kNoIndex, 0};
      },
      ErrorCode::kBadInput, "penalty"},
+    {"negative_threads", [](HeatOptions& o) { o.threads = -4; }, ErrorCode::kBadInput, "-4"},
     {"unknown_backend", [](HeatOptions& o) { o.backend = "gauss"; }, ErrorCode::kNotAvailable,
      "gauss"},
 };

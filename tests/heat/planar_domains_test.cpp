@@ -220,6 +220,15 @@ TEST(Domains, VirtualVerticesThatDoNotFitAreOneLine) {
   }
 }
 
+TEST(Domains, NumbersOfCellsBeginAtZero) {
+  CellComplex cells = *cells_of(quads(4, 0));
+  EXPECT_TRUE(check_cells(cells));
+  cells.numbers.front() = -1;
+  const auto valid = check_cells(cells);
+  ASSERT_FALSE(valid);
+  EXPECT_NE(valid.error().message.find(" 0 is -1"), std::string::npos) << valid.error().message;
+}
+
 TEST(Domains, SharesThatAreNoPartsOfOneAreOneLine) {
   const CellComplex whole = *cells_of(quads(4, 0));
   CellComplex few = whole, more = whole, negative = whole;

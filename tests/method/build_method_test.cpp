@@ -70,6 +70,18 @@ TEST_P(EveryMethod, RefusesWhatIsNotOnTheMesh) {
   }
 }
 
+TEST_P(EveryMethod, RefusesToWorkOnFewerThreadsThanNone) {
+  MethodOptions options;
+  options.method = *parse<MethodKind>(GetParam());
+  options.threads = -4;
+  for (const auto& made :
+       {build_method(mesh_, options), build_method_moved(mesh_, options, built().get())}) {
+    ASSERT_FALSE(made);
+    EXPECT_EQ(made.error().code, ErrorCode::kBadInput);
+    EXPECT_NE(made.error().message.find("-4"), std::string::npos) << made.error().message;
+  }
+}
+
 TEST_P(EveryMethod, KnowsOffsetsOrSaysThatItDoesNot) {
   const auto method = built();
   SourceSet sources = SourceSet::of_vertices({0, 40});

@@ -69,6 +69,11 @@ def test_a_wrong_mesh_is_one_error(vertices, faces, named):
         ("x", [1, 0, 0]),
         {"a": 1},
         object(),
+        b"17",
+        [bytearray(b"17")],
+        [[[1, 0, 0], [0, 1, 0]]],
+        [17, [3, [99, 5]]],
+        "\ud800",
     ],
 )
 def test_wrong_sources_are_one_error(solver, sources):
@@ -76,6 +81,28 @@ def test_wrong_sources_are_one_error(solver, sources):
         with pytest.raises(ValueError, match="source|coordinate|'17|random") as caught:
             ask(sources)
         assert isinstance(caught.value, geotherm.Error)
+
+
+def test_lists_of_whole_numbers_in_a_list_are_no_set(solver):
+    """As an array they are places; row for row they are vertices."""
+    corners = [[1, 0, 0], [0, 1, 0]]
+    with pytest.raises(geotherm.InputError, match="vertices or a place; give one list"):
+        solver.distance(corners)
+    places = solver.distance(np.array(corners))
+    assert np.array_equal(places, solver.distance([[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]]))
+    rows = solver.distances(corners)
+    assert rows.shape[0] == 2 and np.allclose(rows, solver.distance([0, 1]), rtol=0, atol=1e-9)
+
+
+def test_text_and_numbers_are_told_apart(solver):
+    for ask, said in [
+        (lambda: solver.distances([["17"]]), "a set that holds the text '17'; give numbers"),
+        (lambda: solver.path("17", 900), "the text '17' before what is no text; give texts alone"),
+    ]:
+        with pytest.raises(geotherm.InputError, match=said):
+            ask()
+    assert solver.path("17", "900").length == solver.path(17, 900).length
+    assert np.array_equal(solver.distances([99, "17"]), solver.distances([99, 17]))
 
 
 @pytest.mark.parametrize(
@@ -150,6 +177,24 @@ def test_wrong_arguments_of_the_others_are_named(bunny, solver):
         (lambda: solver.farthest_points(3, first=2.5), "first is 2.5"),
         (lambda: solver.relax([1, 2], 2**64 + 1), "steps is 1844"),
         (lambda: solver.pairs([1, [2, 3]]), "vertices"),
+        (lambda: geotherm.read("a" * 5000), "aaa"),
+        (lambda: geotherm.read("\ud800"), "no file is called"),
+        (lambda: geotherm.Grid(np.ones((2, 2)), spacing=[[1], [1, 2]]), "spacing is"),
+        (lambda: geotherm.Grid(np.ones((2, 2)), spacing=[]), "spacing has 0 numbers"),
+        (lambda: geotherm.Mesh(V, F, mask=[]), "mask is empty"),
+        (lambda: geotherm.Mesh(V, F, mask=[[1], [1, 2]]), "mask"),
+        (lambda: geotherm.Mesh(V, F, mask=[0, NAN, 0, 0]), "mask: number 1 is nan; give 0"),
+        (lambda: geotherm.TetMesh(np.eye(4, 3), [[0, 0, 0, 0]]), "the volume of 1 tet has no border"),
+        (lambda: geotherm.Polygons(V, []), "no face"),
+        (lambda: geotherm.log_map(bunny, "17@0.5"), "point 0 has the offset 0.5"),
+        (lambda: geotherm.centres(bunny, [3, (7, [0.5, 0.5, 0.5])]), "0.5, 0.5 and 0.5; give three"),
+        (lambda: solver.relax(["17@0.5"], 1), "point 0 has the offset 0.5"),
+        (lambda: solver.path(3, "curve:4,5"), "point 1 is several"),
+        (lambda: geotherm.isolines(bunny, d, levels=[0, 2, 1]), "number 2 is 1, after 2; give"),
+        (lambda: geotherm.isolines(bunny, d, levels=[0, NAN]), "number 1 is nan, after 0; give"),
+        (lambda: solver.solve(17).field(5), "name is 5"),
+        (lambda: solver.solve(17).field("error\0zzz"), "name holds a zero byte"),
+        (lambda: solver.solve(17).field("\udc80"), "there is no array"),
     ]
     for ask, named in wrong:
         with pytest.raises(geotherm.Error, match=named):
@@ -173,4 +218,6 @@ def test_random_nonsense_is_an_answer_or_an_error(solver):
         except geotherm.Error as error:
             assert str(error) and "\n" not in str(error)
         else:
+            given = one if isinstance(one, list) else [one]
+            assert not any(isinstance(each, bytes) for each in given)
             assert not np.isnan(answer).any() and answer.shape[-1] == 2000

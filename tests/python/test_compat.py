@@ -44,9 +44,17 @@ def test_paths(arrays, bunny):
     poly = path_solver.find_geodesic_path_poly([14, 600, 22])  # pulled straight past 600
     assert length_of(poly) == pytest.approx(exact.distance(14)[22], rel=1e-6)
     assert np.array_equal(poly[[0, -1]], V[[14, 22]])
-    assert path_solver.find_geodesic_loop([14, 400, 900]).shape[1] == 3
+    with pytest.warns(geotherm.ResultWarning, match="drawn together to a point"):
+        assert path_solver.find_geodesic_loop([14, 400, 900]).shape == (1, 3)
     with pytest.raises(NotImplementedError):
         path_solver.find_geodesic_path(14, 22, max_iterations=3)
+
+
+def test_loops_go_round_handles(torus):
+    V, F, through, length = torus
+    loop = pp3d.EdgeFlipGeodesicSolver(V, F).find_geodesic_loop(through)
+    assert length_of(loop) == pytest.approx(length, rel=1e-6)
+    assert np.array_equal(loop[0], loop[-1])
 
 
 def test_straightest_lines(arrays, bunny):
@@ -134,6 +142,9 @@ def test_points(arrays):
     for wrong in ([], [2000], [-1], [0.5]):
         with pytest.raises(geotherm.InputError):
             solver.transport_tangent_vectors(wrong, [[1, 0]] * len(wrong))
+    for curves in ([], [[17]], [[1, 2], []]):
+        with pytest.raises(geotherm.InputError, match="give each two or more"):
+            solver.compute_signed_distance(curves, normal)
 
 
 def test_triangles_between_points(arrays):
@@ -194,6 +205,8 @@ def test_files(arrays, tmp_path):
     pp3d.write_mesh(V[:5], quads, str(tmp_path / "q.obj"))
     read_V, read_F = pp3d.read_polygon_mesh(str(tmp_path / "q.obj"))
     assert np.array_equal(read_V, V[:5]) and read_F == quads
+    pp3d.write_mesh(V[:5], [np.array(face, float) for face in quads], str(tmp_path / "f.obj"))
+    assert (tmp_path / "f.obj").read_bytes() == (tmp_path / "q.obj").read_bytes()
     for call in (
         lambda: pp3d.write_mesh(V[:5], quads, str(tmp_path / "q.ply")),
         lambda: pp3d.write_mesh(V, F, str(tmp_path / "m.obj"), UV_coords=V[:, :2]),
@@ -201,6 +214,14 @@ def test_files(arrays, tmp_path):
     ):
         with pytest.raises(NotImplementedError):
             call()
+
+
+def test_corners_count_back_from_where_they_stand_and_lines_go_on(tmp_path):
+    square = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n"
+    faces = "f -4 -3 -2 -1  # counted back, with no \\\nf 1/1 2//2 \\\n 3\nv 0 0 1\nf -1 1\\\n 2\n"
+    (tmp_path / "q.OBJ").write_text(square + faces)
+    V, F = pp3d.read_polygon_mesh(str(tmp_path / "q.OBJ"))
+    assert len(V) == 5 and F == [[0, 1, 2, 3], [0, 1, 2], [4, 0, 1]]
 
 
 def test_areas(arrays):
@@ -240,9 +261,17 @@ def test_exact_distances(arrays, bunny, tmp_path):
     assert np.isinf(near).any() and near[np.isfinite(near)].max() <= 0.5
     with pytest.raises(geotherm.Error, match="target"):
         geoalg.geodesicDistances([25], [99999])
+    with pytest.raises(geotherm.InputError, match="targetIndex is 17.9"):
+        geoalg.geodesicDistance(17, 17.9)
 
 
 def test_its_text_files_are_read(tmp_path):
     (tmp_path / "m.txt").write_text("3 1\n0 0 0\n1 0 0\n0 1 0\n0 1 2\n")
     points, faces = geodesic.read_mesh_from_file(tmp_path / "m.txt")
     assert points.shape == (3, 3) and faces.tolist() == [[0, 1, 2]]
+    for text in ("", "3", "3 x", "3 1\n0 0 0\n", "-3 1\n", "3 1\n0 0 zero\n"):
+        (tmp_path / "m.txt").write_text(text)
+        with pytest.raises(geotherm.Error, match="m.txt"):
+            geodesic.read_mesh_from_file(tmp_path / "m.txt")
+    with pytest.raises(geotherm.Error, match="none.txt: No such file"):
+        geodesic.read_mesh_from_file(tmp_path / "none.txt")

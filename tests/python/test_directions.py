@@ -104,6 +104,8 @@ def test_a_mean_on_the_plane_is_the_centroid(grid):
     assert np.allclose(
         mean.distances[0], np.linalg.norm(grid.vertices[points] - mean.points[0], axis=1)
     )
+    one = geotherm.centres(grid, [205])
+    assert one.distances.shape == (1, 1) and one.distances[0, 0] == pytest.approx(0, abs=1e-9)
     with pytest.raises(geotherm.InputError, match="1 weight for 4 points"):
         geotherm.centres(grid, points, [1.0])
 

@@ -6,6 +6,7 @@ import os
 import re
 import subprocess
 import sys
+import tarfile
 import zipfile
 from pathlib import Path
 
@@ -82,6 +83,19 @@ def test_a_wheel_is_built_without_what_systems_lack(builder, monkeypatch):
     assert "-DGEOTHERM_FOR_WHEEL=ON" in configure and "geotherm_c" in build
     options = (ROOT / "docs/installing.md").read_text() + (ROOT / "docs/architecture.md").read_text()
     assert all(f"GEOTHERM_{name}" in options for name in off)
+
+
+def test_an_sdist_has_nothing_that_was_built_or_is_hidden(builder, monkeypatch, tmp_path):
+    kept = ["CMakeLists.txt", "pyproject.toml", "README.md", "LICENSE", "cmake/a.cmake", "solver/a.cpp"]
+    kept += ["app/python/geotherm/__init__.py", "bench/models/a.cpp", "assets/models/a.ply"]
+    strays = [".env", "__pycache__/a.pyc", "libgeotherm.so.0", "a.so", ".a.cpp.swp"]
+    for name in kept + [f"{top}/{stray}" for top in ("solver", "app/python/geotherm") for stray in strays]:
+        (tmp_path / "tree" / name).parent.mkdir(parents=True, exist_ok=True)
+        (tmp_path / "tree" / name).write_text("project(geotherm VERSION 1.2.3\n")
+    monkeypatch.setattr(builder, "_ROOT", tmp_path / "tree")
+    with tarfile.open(tmp_path / builder.build_sdist(str(tmp_path))) as archive:
+        files = {entry.name for entry in archive if entry.isfile()}
+    assert files == {f"geotherm-1.2.3/{name}" for name in [*kept, "PKG-INFO"]}
 
 
 def test_a_wheel_that_needs_more_is_refused(builder):

@@ -110,13 +110,23 @@ def test_importing_loads_nothing_large():
     assert said.stdout.split() == ["geotherm", "0"]
 
 
-def test_a_library_that_is_missing_is_said():
+@pytest.mark.parametrize("library", ["/no/such/file.so", "libm.so.6"])
+def test_a_library_that_is_missing_or_another_is_said(library):
     code = "import geotherm; geotherm.features()"
-    environment = {**os.environ, "GEOTHERM_LIBRARY": "/no/such/file.so"}
+    environment = {**os.environ, "GEOTHERM_LIBRARY": library}
     said = subprocess.run(
         [sys.executable, "-c", code], env=environment, capture_output=True, text=True
     )
-    assert said.returncode == 1 and "/no/such/file.so" in said.stderr
+    assert said.returncode == 1 and "ImportError: " in said.stderr and library in said.stderr
+
+
+def test_progress_that_asks_its_own_solver_is_refused_not_waited_for(bunny):
+    solver = geotherm.Solver(bunny)
+    with pytest.raises(geotherm.InputError, match="whose progress asks it; ask it when"):
+        solver.path(17, 99, progress=lambda stage, share: solver.solve(3) and None)
+    beside = geotherm.Solver(bunny)
+    line = solver.path(17, 99, progress=lambda *_: (beside.solve(3), solver.distance(3), None)[2])
+    assert line.length == solver.path(17, 99).length
 
 
 def test_who_waits_for_a_solver_can_be_cancelled(bunny):

@@ -55,3 +55,16 @@ def test_numbers_beyond_float32_are_refused(bunny):
     with pytest.raises(geotherm.Error, match="float32"):
         large.distances([17], dtype="f4")
     assert large.distances([17]).max() > 1e40
+
+
+def test_numbers_below_float32_are_refused_in_memory_as_in_files(bunny, tmp_path):
+    small = geotherm.Solver(geotherm.Mesh(bunny.vertices * 1e-42, bunny.faces))
+    words = r"the values lie beyond the range of float32 \(1.2e-38 to 3.4e38\); write float64"
+    for ask in (
+        lambda: small.distance(17, dtype="f4"),
+        lambda: small.distances([17, 99], dtype="f4"),
+        lambda: small.distances([17, 99], dtype="f4", out=tmp_path / "rows.npy"),
+    ):
+        with pytest.raises(geotherm.InputError, match=words):
+            ask()
+    assert 0 < small.distance(17).max() < 1e-41

@@ -105,6 +105,29 @@ def test_edge_lengths(bunny, tmp_path):
         with pytest.raises(geotherm.InputError, match="no places"):
             has_no_places.write(tmp_path / "x.ply")
     solver.solve(17).write(tmp_path / "x.npy")
+    assert "where another one lies" not in solver.model.report()
+    assert "box" not in solver.model.report()
+    assert not {"box_min", "box_max", "duplicate_positions"} & set(solver.model.info()["model"])
+
+
+def test_edge_lengths_of_any_size():
+    faces = [[0, 1, 2], [1, 3, 2]]
+    expected = geotherm.Solver(geotherm.Mesh.from_edge_lengths(faces, np.ones((2, 3)))).distance(0)
+    for unit in (1e-150, 1e150):
+        model = geotherm.Mesh.from_edge_lengths(faces, np.full((2, 3), unit))
+        assert np.allclose(geotherm.Solver(model).distance(0) / unit, expected, rtol=1e-12)
+    for unit in (1e-160, 1e160):  # their areas are no doubles
+        with pytest.raises(geotherm.InputError, match="face 0 .* beyond .*; give .* another unit"):
+            geotherm.Mesh.from_edge_lengths(faces, np.full((2, 3), unit))
+
+
+def test_edge_lengths_take_the_memory_of_their_faces():
+    for last in (6, 2**31 - 1):
+        said = f"vertex {last}, and 2 faces have at most 6 vertices; number .* without gaps"
+        with pytest.raises(geotherm.InputError, match=said):
+            geotherm.Mesh.from_edge_lengths([[0, 1, 2], [3, 4, last]], np.ones((2, 3)))
+    loose = geotherm.Mesh.from_edge_lengths([[0, 1, 2], [3, 4, 5]], np.ones((2, 3)))
+    assert loose.n_vertices == 6
 
 
 def test_a_moved_model_is_pickled_as_what_it_was(bunny):
@@ -170,6 +193,7 @@ def test_welded_vertices_are_one():
     soup, loose = V[F].reshape(-1, 3), np.arange(F.size).reshape(-1, 3)
     cracked = geotherm.Solver(geotherm.Mesh(soup, loose)).distance(0)
     mesh = geotherm.Mesh(soup, loose, weld=0)
+    assert any(f"{len(soup) - len(V)} vertices" in text for text in mesh.info()["warnings"])
     welded = geotherm.Solver(mesh).distance(0)
     assert np.isinf(cracked).any() and np.isfinite(welded).all()
     again = pickle.loads(pickle.dumps(mesh))

@@ -57,6 +57,9 @@ def test_sparse_rows_are_what_scipy_loads(bunny, sparse, tmp_path, dtype):
     assert [file.name for file in tmp_path.iterdir()] == ["near.npz"]
     all_of_them = solver.distances(ids[:2], out=tmp_path / "all.npz").toarray()
     assert np.array_equal(all_of_them, solver.distances(ids[:2]))
+    shouted = solver.distances(ids[:2], out=tmp_path / "ALL.NPZ").toarray()
+    assert np.array_equal(shouted, all_of_them)
+    (tmp_path / "ALL.NPZ").unlink()
     with pytest.raises(geotherm.Error):
         solver.distances(ids, max_distance=0.2, out=tmp_path / "no.npz", progress=lambda *_: False)
     assert not (tmp_path / "no.npz").exists()

@@ -89,7 +89,19 @@ def test_a_path_is_as_long_as_the_distance(bunny, solver):
     corners = bunny.vertices[bunny.faces[path.faces]]
     assert np.allclose(np.einsum("nk,nkd->nd", path.weights, corners), path.points)
     assert solver.path(17, 900, field="distance").length >= path.length
-    assert solver.path(17, 900, 400, closed=True).closed
+
+
+def test_a_loop_round_a_handle_is_as_long_as_the_handle_is_thick(torus):
+    V, F, through, length = torus
+    loop = geotherm.Solver(geotherm.Mesh(V, F)).path(*through, closed=True)
+    assert loop.closed and loop.length == pytest.approx(length, rel=1e-6)
+    assert np.array_equal(loop.points[0], loop.points[-1])
+
+
+def test_what_lines_cannot_say_is_a_warning(solver):
+    with pytest.warns(geotherm.ResultWarning, match="drawn together to a point"):
+        loop = solver.path(17, 900, closed=True)
+    assert loop.length == 0 and loop.closed
 
 
 def test_isolines_lie_at_their_levels(bunny, solver, tmp_path):
@@ -176,6 +188,13 @@ def test_an_option_that_is_none_is_a_wrong_keyword(bunny):
         geotherm.Solver(bunny, weld=0)
     with pytest.raises(TypeError, match="no option 'threads'"):
         geotherm.read("bunny", threads=1)
+
+
+def test_switches_are_booleans_of_numpy_too(bunny, solver):
+    assert geotherm.Solver(bunny, strict=np.True_).options == {"strict": np.True_}
+    with pytest.raises(geotherm.Error) as caught:
+        geotherm.Solver(bunny, progress=lambda *_: np.False_)
+    assert caught.value.code == "cancelled"
 
 
 def test_a_solver_tells_what_it_took(solver):

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any, overload
 import numpy as np
 
 from geotherm._arrays import AnyArray, given, number_in, view, whole_in
-from geotherm._library import Error, Handle, InputError, call, create, path_bytes
+from geotherm._library import Error, Handle, InputError, call, create, path_bytes, text_bytes
 from geotherm._models import Model, handle_of
 
 if TYPE_CHECKING:
@@ -68,6 +68,7 @@ class Result:
     def field(self, name: str) -> AnyArray:
         """(V,) or (F,) numbers that say where distances are right, by the name on the command line:
         "error", "eikonal-error", "gradient-angle", "lost-gradients", ..."""
+        text_bytes(name, "name")
         return self._array(name)
 
     @functools.cached_property

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from geotherm._library import Array, Handle, InputError, call
+from geotherm._library import Array, Handle, InputError, call, text_bytes
 
 AnyArray = npt.NDArray[Any]
 
@@ -136,7 +136,7 @@ class _Inside:
 def view(handle: Handle, name: str) -> AnyArray:
     """geotherm_array_of(): the library's own memory, read-only, kept by the array."""
     array = Array()
-    call("array_of", handle.value, name.encode(), ctypes.byref(array))
+    call("array_of", handle.value, text_bytes(name, "name"), ctypes.byref(array))
     if array.rows == 0:
         shape = (0,) if array.columns == 1 else (0, array.columns)
         return np.empty(shape, _DTYPES[array.type])

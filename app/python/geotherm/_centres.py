@@ -36,7 +36,7 @@ class Centres:
         self.energies = view(handle, "energies")
         self.residuals = view(handle, "residuals")
         self.converged: AnyArray = np.asarray(view(handle, "converged"), dtype=bool)
-        self.distances = view(handle, "distances")
+        self.distances: AnyArray = view(handle, "distances").reshape(len(self.energies), -1)
         self.warnings: list[str] = json.loads(handle.text("warnings"))
 
     def __len__(self) -> int:

@@ -5,14 +5,13 @@ from __future__ import annotations
 
 import ctypes
 import json
-import warnings
 from typing import Any
 
 import numpy as np
 
 from geotherm._answers import Line, Lines
 from geotherm._arrays import AnyArray, given, number_in, view
-from geotherm._library import Handle, Progress, ResultWarning, Watch, create, text_bytes
+from geotherm._library import Handle, Progress, Watch, create, text_bytes, warned
 from geotherm._models import Model, handle_of
 from geotherm._options import options_of
 from geotherm._sources import Taken
@@ -58,13 +57,6 @@ class Vectors:
         self.warnings: list[str] = json.loads(handle.text("warnings"))
 
 
-def _warned(handle: Handle) -> Handle:
-    """An answer of which the caller gets an array alone."""
-    for text in json.loads(handle.text("warnings")):
-        warnings.warn(text, ResultWarning, stacklevel=3)
-    return handle
-
-
 def _points_of(curve: Any, closed: bool) -> Any:
     """Of a Line its points in faces."""
     if not isinstance(curve, Line):
@@ -103,7 +95,7 @@ def log_map(
             number_in(max_distance, "max_distance"),
             watch.pointer,
         )
-    return LogMap(_warned(handle))
+    return LogMap(warned(handle))
 
 
 def trace(
@@ -131,7 +123,7 @@ def trace(
             number_in(length, "length"),
             watch.pointer,
         )
-    line = Lines(handle, values=False)[0]
+    line = Lines(warned(handle), values=False)[0]
     line.end = handle.text("end")
     return line
 
@@ -204,7 +196,7 @@ def extend(
     """
     settings = {"backend": backend, "time_factor": time_factor, "threads": threads}
     handle = _spread("extend", model, vertices, values, 1, settings, progress)
-    return view(_warned(handle), "values")
+    return view(warned(handle), "values")
 
 
 def signed_distance(
@@ -251,4 +243,4 @@ def signed_distance(
             text_bytes(rule, "rule"),
             watch.pointer,
         )
-    return view(_warned(handle), "distances")
+    return view(warned(handle), "distances")

@@ -51,7 +51,7 @@ class Polygons(Model):
             cells=(corners, "faces", 1),
             starts=starts,
         )
-        self._recipe = (Polygons, np.array(self.vertices), [row.tolist() for row in rows])
+        self._recipe = (Polygons, np.array(self.vertices), [[int(v) for v in row] for row in rows])
 
 
 class TetMesh(Model):
@@ -138,10 +138,14 @@ class Grid(Model):
 
 def _along(given: Any, name: str, other: float) -> list[float]:
     """Along x, y and z; `other` along those that are not given. One number stands for all three."""
-    if np.ndim(given) == 0:
+    try:
+        alone = np.ndim(given) == 0
+    except ValueError:  # lists of several lengths
+        alone = False
+    if alone:
         return [number_in(given, name)] * 3
     numbers = [number_in(each, name) for each in given]
-    if len(numbers) > 3:
+    if not 1 <= len(numbers) <= 3:
         raise InputError(f"{name} has {len(numbers)} numbers", hint="give them along x, y and z")
     return numbers + [other] * (3 - len(numbers))
 
@@ -152,8 +156,8 @@ def _grid_again(speeds: AnyArray, spacing: tuple[float, ...], origin: tuple[floa
 
 def _bundled(name: str) -> str:
     """The file of a bundled model, where it came with the package."""
-    file = Path(__file__).parent / "models" / f"{name}.ply"
-    return str(file) if file.exists() and not Path(name).exists() else name
+    file = str(Path(__file__).parent / "models" / f"{name}.ply")
+    return file if os.path.exists(file) and not os.path.exists(name) else name
 
 
 def read(

@@ -5,15 +5,19 @@ from __future__ import annotations
 
 import ctypes
 import functools
+import json
 import os
 import sys
 import threading
 import time
+import warnings
 from collections.abc import Callable
 from ctypes import POINTER, byref, c_char_p, c_double, c_int, c_int64, c_void_p
 from pathlib import Path
 from types import TracebackType
 from typing import Any, Union
+
+import numpy as np
 
 _INTERFACE = 0  # GEOTHERM_INTERFACE of the header that this file follows
 _CODES = (
@@ -57,7 +61,7 @@ class InputError(Error, ValueError):
 
 
 class ResultWarning(UserWarning):
-    """What there is to know of an answer that is an array alone."""
+    """What there is to know of an answer that has no `warnings` itself: an array, lines, samples."""
 
 
 class Array(ctypes.Structure):
@@ -174,6 +178,8 @@ def library() -> ctypes.CDLL:
         except OSError as why:
             tried.append(str(why))
             continue
+        if not hasattr(found, "geotherm_interface"):
+            raise ImportError(f"{name} is no library of geotherm; set GEOTHERM_LIBRARY to one")
         if found.geotherm_interface() != _INTERFACE:
             raise ImportError(
                 f"{name} has the interface {found.geotherm_interface()}, and this package is made"
@@ -232,25 +238,37 @@ def create(function: str, *arguments: Any) -> Handle:
     return handle
 
 
+def warned(handle: Handle) -> Handle:
+    """An answer whose warnings nothing holds: they are ResultWarnings for the caller's caller."""
+    for text in json.loads(handle.text("warnings")):
+        warnings.warn(text, ResultWarning, stacklevel=3)
+    return handle
+
+
 def path_bytes(path: str | os.PathLike[str], argument: str) -> bytes:
     """A path as the library takes it."""
     try:
-        name = os.fspath(path)
+        return _without_zeros(os.fsencode(path), argument)
     except TypeError:
         raise InputError(f"{argument} is {type(path).__name__}, and no path") from None
-    encoded = os.fsencode(name)
-    if b"\0" in encoded:
-        raise InputError(f"{argument} holds a zero byte")
-    return encoded
+    except UnicodeEncodeError:
+        raise InputError(f"{argument} is {path!r}, which no file is called") from None
 
 
 def text_bytes(text: str, argument: str) -> bytes:
     """A text as the library takes it."""
     if not isinstance(text, str):
         raise InputError(f"{argument} is {text!r}, and no text")
-    if "\0" in text:
+    try:
+        return _without_zeros(text.encode("utf-8", "surrogateescape"), argument)
+    except UnicodeEncodeError:
+        raise InputError(f"{argument} is {text!r}, which is no text") from None
+
+
+def _without_zeros(encoded: bytes, argument: str) -> bytes:
+    if b"\0" in encoded:
         raise InputError(f"{argument} holds a zero byte")
-    return text.encode("utf-8", "surrogateescape")
+    return encoded
 
 
 def _tell_plainly() -> Callable[[str, float], None]:
@@ -310,7 +328,8 @@ class Watch:
     def _on_progress(self, _: int | None, stage: bytes, share: float) -> int:
         try:
             assert self._tell is not None
-            self._said_stop = self._tell(_decoded(stage), share) is False
+            answer = self._tell(_decoded(stage), share)
+            self._said_stop = isinstance(answer, (bool, np.bool_)) and not answer
         except BaseException as raised:  # it is raised again where the call returns
             self._raised = raised
             return 1

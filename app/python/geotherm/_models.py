@@ -57,8 +57,8 @@ class Model:
     @classmethod
     def _moved(cls, earlier: Model, handle: Handle) -> Any:
         """The model with its vertices elsewhere, which is made again by moving the first one."""
-        first = earlier._recipe[1] if earlier._recipe[0] is _moved_again else earlier
-        return cls._around(handle, (_moved_again, first))
+        first = earlier._recipe[1] if earlier._recipe[0] is moved_again else earlier
+        return cls._around(handle, (moved_again, first))
 
     def _build(
         self,
@@ -153,7 +153,7 @@ class Model:
 
     def __reduce__(self) -> tuple[Any, ...]:
         maker, *arguments = self._recipe
-        if maker is _moved_again:
+        if maker is moved_again:
             arguments.append(np.array(self.vertices))
         return maker, tuple(arguments)
 
@@ -262,17 +262,20 @@ class Mesh(Model):
                 raise InputError(
                     "faces is missing", hint="give vertices and faces, or an object with both"
                 )
+        marks = None if mask is None else given(mask, "mask", 1)[1]
+        if marks is not None and marks.size == 0:
+            raise InputError("mask is empty", hint="give a number a vertex or a face, or None")
         options = None if weld is None else options_of({"weld": weld})
         self._build(
             TRIANGLES,
             positions=(vertices, "vertices", 3),
             cells=(faces, "faces", 3),
-            values=None if mask is None else (mask, "mask", 1),
+            values=None if marks is None else (marks, "mask", 1),
             options=options,
         )
         # Faces of a welded mesh are others, by which it cannot be welded again.
-        marks = None if mask is None else np.array(mask)
-        welded = (_mesh_again, np.array(vertices), np.array(faces), weld, marks)
+        kept = None if marks is None else np.array(marks)
+        welded = (_mesh_again, np.array(vertices), np.array(faces), weld, kept)
         self._recipe = () if weld is None else welded
 
     @classmethod
@@ -280,9 +283,9 @@ class Mesh(Model):
         """A surface of which only lengths are known: the heat method measures it.
 
         Args:
-            faces: (F, 3) vertex numbers.
+            faces: (F, 3) vertex numbers from 0 on, below 3 F.
             lengths: (F, 3): of the side opposite each corner (as igl.edge_lengths gives them), the
-                same for both faces of an edge.
+                same for both faces of an edge; from 1e-150 to 1e150.
 
         Raises: InputError, with the face whose sides are no triangle or disagree with another's.
 
@@ -304,7 +307,8 @@ class Mesh(Model):
         return _mesh_again, (np.array(self.vertices), np.array(self.faces), None)
 
 
-def _moved_again(first: Model, vertices: AnyArray) -> Model:
+def moved_again(first: Model, vertices: AnyArray) -> Model:
+    """What Solver.update() made of a model."""
     from geotherm._solver import Solver
 
     return Solver(first).update(vertices).model

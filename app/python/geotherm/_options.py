@@ -11,12 +11,14 @@ import json
 from collections.abc import Mapping
 from typing import Any
 
+import numpy as np
+
 from geotherm._library import Handle, call, create, text_bytes
 
 
 def text_of(value: Any) -> str:
     """A value as the program reads it."""
-    if isinstance(value, bool):
+    if isinstance(value, (bool, np.bool_)):
         return "on" if value else "off"
     return repr(value) if type(value) is float else str(value)
 

@@ -18,7 +18,7 @@ import numpy as np
 from geotherm._arrays import AnyArray, given
 from geotherm._library import Error, InputError
 from geotherm._domains import PointCloud, read_again
-from geotherm._models import Model
+from geotherm._models import Model, moved_again
 from geotherm._options import text_of
 
 _WRITTEN = (".png", ".pdf", ".svg", ".html", ".glb")
@@ -53,18 +53,19 @@ _DOMAIN_ENDINGS = {
 
 def _model_words(model: Model, folder: Path, with_values: bool) -> list[str]:
     """The model as `geotherm render` takes it, in a file whose vertices have the same numbers. Values
-    are drawn on its triangles."""
+    are drawn on its triangles, and so is what has moved: points would be joined anew."""
     maker, *recipe = model._recipe or (None,)
     if maker is read_again and not with_values:
-        words = [str(recipe[0])]
-        for name, value in recipe[1].items():
-            words += [] if value is None else [f"--{name}", text_of(value)]
+        name = os.fsdecode(recipe[0])
+        words = ["./" + name if name.startswith("-") else name]
+        for option, value in recipe[1].items():
+            words += [] if value is None else [f"--{option}", text_of(value)]
         return words
     if model.domain == "lengths":
         raise Error(
             "a surface of edge lengths has no places, so that it cannot be drawn", "not-available"
         )
-    domain = "triangles" if with_values else model.domain
+    domain = "triangles" if with_values or maker is moved_again else model.domain
     path = folder / f"{model.name}.{_DOMAIN_ENDINGS[domain]}"
     if domain == "points":
         normals = recipe[1] if maker is PointCloud else None

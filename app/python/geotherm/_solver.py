@@ -24,6 +24,7 @@ from geotherm._library import (
     create,
     path_bytes,
     text_bytes,
+    warned,
 )
 from geotherm._models import Mesh, Model
 from geotherm._options import SolverSignature, given_options, options_of
@@ -87,7 +88,9 @@ class Solver:
         Args:
             sources: a vertex number; several; (face, weights); a place [x, y, z], or places (n, 3),
                 of which the nearest point of the model is taken; text as on the command line, such
-                as "boundary", "curve:3,4,5", "random:5", "17@0.5"; or a list of all these.
+                as "boundary", "curve:3,4,5", "random:5", "17@0.5"; or a list of all these. Whole
+                numbers in a list are vertices; a list of lists of them, which may be places, is
+                refused: give floats or numpy.array() of it.
             out: (V,) float64 or float32 that is written to and returned.
             dtype: of a new array; float64.
 
@@ -160,7 +163,7 @@ class Solver:
         if array is not None:
             return array
         assert path is not None
-        if os.fspath(path).endswith(".npz"):
+        if os.fsdecode(path).lower().endswith(".npz"):
             return importlib.import_module("scipy.sparse").load_npz(path)
         mapped: AnyArray = np.load(path, mmap_mode="r")
         return mapped
@@ -205,7 +208,8 @@ class Solver:
         with Watch(progress) as watch:
             words = text_bytes(" ".join(wanted), "check")
             handle = create("solve", self._handle.value, taken.pointer, words, watch.pointer)
-        return Result(handle, self.model, taken.texts(), self._settings)
+        reach = {} if most == float("inf") else {"max_distance": most}
+        return Result(handle, self.model, taken.texts(), {**self._settings, **reach})
 
     def path(
         self,
@@ -222,6 +226,8 @@ class Solver:
             closed: leads from the last to the first, and is pulled straight all round.
             loose: of an open geodesic the points between its ends only say where it runs at first.
 
+        A ResultWarning says where a loop was drawn together to a point, and the like.
+
         >>> solver.path(17, 99).length > 0
         True
         """
@@ -237,7 +243,7 @@ class Solver:
                 2 if loose else int(bool(closed)),
                 watch.pointer,
             )
-        return Lines(handle, values=False)[0]
+        return Lines(warned(handle), values=False)[0]
 
     def paths(self, start: Any, ends: Any, *, progress: Progress = None) -> Lines:
         """The shortest paths from one point to each of others, in their order; the distances from it
@@ -251,7 +257,7 @@ class Solver:
             handle = create(
                 "paths", self._handle.value, begin.pointer, end.pointer, watch.pointer
             )
-        return Lines(handle, values=False)
+        return Lines(warned(handle), values=False)
 
     def relax(self, points: Any, steps: int, *, progress: Progress = None) -> Relaxed:
         """Lloyd's iteration: each point moves to the mean of the vertices nearest to it, `steps` times
@@ -266,9 +272,10 @@ class Solver:
         """
         taken = Taken(points, "points", sets=True)
         with Watch(progress) as watch:
-            return Relaxed(
-                create("relax", self._handle.value, taken.pointer, whole_in(steps, "steps"), watch.pointer)
+            handle = create(
+                "relax", self._handle.value, taken.pointer, whole_in(steps, "steps"), watch.pointer
             )
+        return Relaxed(warned(handle))
 
     def farthest_points(
         self, count: int, *, first: int | None = None, progress: Progress = None
@@ -281,9 +288,10 @@ class Solver:
         """
         begin = -1 if first is None else whole_in(first, "first")
         with Watch(progress) as watch:
-            return Samples(
-                create("samples", self._handle.value, whole_in(count, "count"), begin, watch.pointer)
+            handle = create(
+                "samples", self._handle.value, whole_in(count, "count"), begin, watch.pointer
             )
+        return Samples(warned(handle))
 
     def update(self, vertices: Any, *, progress: Progress = None) -> Solver:
         """The same faces and options with the vertices (V, 3) elsewhere, in half of the time of a

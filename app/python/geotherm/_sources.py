@@ -28,6 +28,10 @@ def _is_in_face(one: Any) -> bool:
     return isinstance(weights, (list, tuple)) and all(isinstance(w, numbers) for w in weights)
 
 
+def _are_whole(items: Iterable[Any]) -> bool:
+    return all(isinstance(item, (int, np.integer)) for item in items)
+
+
 class Taken:
     """Sources as the library takes them. `sets`: each by itself, in place of all together."""
 
@@ -124,6 +128,8 @@ class Taken:
             if not 0 <= one < 2**63:
                 raise self._wrong(f"holds {one}, which is no vertex")
             self._ids(np.array([one], np.int64))
+        elif isinstance(one, (bytes, bytearray)):
+            raise self._wrong("holds bytes", "give text or vertex numbers")
         elif isinstance(one, np.ndarray):
             self._array(one)
         elif isinstance(one, tuple) and _is_in_face(one):
@@ -144,16 +150,21 @@ class Taken:
     def _add_list(self, items: list[Any]) -> None:
         if not items:
             raise self._wrong("is empty", "name at least one")
-        simple = all(isinstance(item, (int, np.integer)) for item in items)
+        simple = _are_whole(items)
         numbers = all(isinstance(item, (int, float, np.number)) for item in items)
         if numbers and not simple and len(items) == 3:
             self._places(np.asarray([items], np.float64))  # one place
             return
         for item in items:
+            if isinstance(item, (list, tuple)) and item and _are_whole(item):
+                raise self._wrong(
+                    "holds a list of whole numbers in a list, which may be vertices or a place",
+                    "give one list of vertices, or places as floats or as numpy.array()",
+                )
             self._add(item)
 
     def _add_sets(self, sources: Any) -> None:
-        if isinstance(sources, (str, int, np.integer)) or _is_in_face(sources):
+        if isinstance(sources, (str, bytes, bytearray, int, np.integer)) or _is_in_face(sources):
             sources = [sources]
         if isinstance(sources, np.ndarray) and sources.ndim == 1 and sources.dtype.kind in "iu":
             self._array(sources)
@@ -164,11 +175,17 @@ class Taken:
         if not isinstance(sources, Iterable):
             raise self._wrong(f"is {type(sources).__name__}", "give a list of sources")
         for one in sources:
+            before = len(self._texts)
             self._add(one)
             if isinstance(one, str):
                 continue
-            if self._texts:
-                raise self._wrong("mixes text with sets before", "put the texts last")
+            if len(self._texts) > before:
+                raise self._wrong(f"has a set that holds the text {self._texts[-1]!r}", "give numbers")
+            if before:
+                raise self._wrong(
+                    f"has the text {self._texts[-1]!r} before what is no text",
+                    "give texts alone, or numbers alone",
+                )
             self._starts.append(self._count)
         if len(self._starts) == 1 and not self._texts:
             raise self._wrong("is empty", "name at least one")

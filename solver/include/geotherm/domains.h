@@ -36,8 +36,8 @@ struct CellComplex {
   std::vector<double> shares;       ///< S: of the measure, to each corner; empty: all are equal
   std::vector<double> widths;       ///< C: lengths that u is linear over, > 0; t has their mean
   std::vector<char> on_boundary;    ///< V: what the boundary rules hold; empty: none
-  /// C, ascending: what sources call each cell; empty: 0 to C - 1. Cells with the same corners, in
-  /// one order, may share a number, as the triangles of a polygon do.
+  /// C, from 0 on, ascending: what sources call each cell; empty: 0 to C - 1. Cells with the same
+  /// corners, in one order, may share a number, as the triangles of a polygon do.
   std::vector<Index> numbers;
   /// C: of polygons, model units; not finite: a triangle that its face was cut into, of the three
   /// corners whose gradients are not 0; empty: no polygons.

@@ -141,7 +141,7 @@ struct HeatOptions {
   LaplacianKind laplacian = LaplacianKind::kAuto;  ///< on which triangles
   Variant variant = Variant::kCorrected;           ///< how it is discretised
   Precision precision = Precision::kCompact;       ///< of the factors
-  int threads = 0;                                 ///< 0: all cores
+  int threads = 0;                                 ///< >= 0; 0: all cores
   bool strict = false;         ///< a backend that fails is not replaced by the next one
   double memory_limit_mb = 0;  ///< most that factors may take, those being made with their
                                ///< working space, in 2^20 bytes; 0: what is free

@@ -87,6 +87,10 @@ class PointCloudHeatSolver:
             raise InputError(
                 f"cloud_normals has the shape {normals.shape}, and {points.shape} is expected"
             )
+        fewest = min((len(curve) for curve in curves), default=0)
+        if fewest < 2:
+            what = f"the shortest of {len(curves)} curves has {fewest} points"
+            raise InputError(what, hint="give each two or more")
         lines = [self._solver.path(a, b) for curve in curves for a, b in zip(curve, curve[1:])]
         on_lines = [(int(f), w) for line in lines for f, w in zip(line.faces, line.weights)]
         along = np.concatenate([np.gradient(line.points, axis=0) for line in lines])

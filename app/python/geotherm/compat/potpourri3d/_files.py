@@ -21,16 +21,23 @@ def read_mesh(filename: str) -> tuple[AnyArray, AnyArray]:
 
 def read_polygon_mesh(filename: str) -> tuple[AnyArray, list[list[int]]]:
     """V (n, 3) and the vertices of each polygon, of an .obj file."""
-    if not filename.endswith(".obj"):
+    if not filename.lower().endswith(".obj"):
         raise NotImplementedError("the polygons of a file are read from .obj")
-    vertices = np.array(read(filename, domain="polygons").vertices)
-    faces = []
+    vertices = np.array(read(filename, domain="polygons").vertices)  # which looks at the faces, too
+    faces: list[list[int]] = []
+    seen, begun = 0, ""
     with open(filename, encoding="utf-8", errors="replace") as lines:
         for line in lines:
-            words = line.split()
-            if words[:1] == ["f"]:
-                faces.append([int(word.split("/")[0]) for word in words[1:]])
-    return vertices, [[v - 1 if v > 0 else len(vertices) + v for v in face] for face in faces]
+            line, begun = begun + line.rstrip("\n"), ""
+            words = line.split("#")[0].split()
+            if words[:1] == ["v"]:
+                seen += 1
+            elif words[:1] == ["f"] and line.endswith("\\") and "#" not in line:
+                begun = line[:-1] + " "  # the next line goes on with the face
+            elif words[:1] == ["f"]:
+                corners = [int(word.split("/")[0]) for word in words[1:]]
+                faces.append([v - 1 if v > 0 else seen + v for v in corners])
+    return vertices, faces
 
 
 def write_mesh(
@@ -48,7 +55,8 @@ def write_mesh(
     polygons = Polygons(V, F)  # which looks at the numbers
     with open(filename, "w", encoding="utf-8") as file:
         np.savetxt(file, polygons.vertices, fmt="v %.17g %.17g %.17g")
-        file.writelines("f " + " ".join(str(v + 1) for v in face) + "\n" for face in F)
+        faces = polygons._recipe[2]
+        file.writelines("f " + " ".join(str(v + 1) for v in face) + "\n" for face in faces)
 
 
 def read_point_cloud(filename: str) -> AnyArray:

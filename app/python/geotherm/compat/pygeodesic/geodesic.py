@@ -8,8 +8,8 @@ from typing import Any
 
 import numpy as np
 
-from geotherm._arrays import AnyArray
-from geotherm._library import InputError
+from geotherm._arrays import AnyArray, whole_in
+from geotherm._library import Error, InputError
 from geotherm._models import Mesh
 from geotherm._solver import Solver
 
@@ -24,7 +24,8 @@ class PyGeodesicAlgorithmExact:
 
     def geodesicDistance(self, sourceIndex: int, targetIndex: int) -> tuple[float, AnyArray]:
         """The length of the shortest path, and its points (k, 3) from target to source."""
-        path = self._solver.path(int(targetIndex), int(sourceIndex))
+        ends = whole_in(targetIndex, "targetIndex"), whole_in(sourceIndex, "sourceIndex")
+        path = self._solver.path(*ends)
         return path.length, np.array(path.points)
 
     def geodesicDistances(
@@ -56,11 +57,16 @@ class PyGeodesicAlgorithmExact:
 
 def read_mesh_from_file(filename: str | os.PathLike[str]) -> tuple[AnyArray, AnyArray]:
     """points (n, 3), faces (m, 3) of a text file: their numbers, then a line for each."""
-    with open(filename, encoding="utf-8") as file:
-        words = file.read().split()
-    points, faces = int(words[0]), int(words[1])
-    numbers = np.array(words[2:], dtype=np.float64)
-    if numbers.size < 3 * (points + faces):
+    try:
+        with open(filename, encoding="utf-8") as file:
+            words = file.read().split()
+        points, faces = (int(word) for word in words[:2])
+        numbers = np.array(words[2:], dtype=np.float64)
+    except OSError as why:
+        raise Error(f"{filename}: {why.strerror}", "bad-file") from None
+    except ValueError as why:
+        raise Error(f"{filename} is no list of numbers ({why})", "bad-file") from None
+    if points < 0 or faces < 0 or numbers.size < 3 * (points + faces):
         raise InputError(f"{filename} ends before its {points} points and {faces} faces")
     return (
         numbers[: 3 * points].reshape(-1, 3),
