@@ -2,8 +2,8 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <queue>
-#include <span>
 #include <unordered_map>
 #include <utility>
 #include <vector>
@@ -44,10 +44,10 @@ struct WaveValues {
 };
 
 /// The distances near to curves, by windows as ExactMethod has them. The distance from a curve has
-/// kinks where it is crossed, and bends where the nearest point of a piece leaves its inside for an
-/// end: no wave fits the values of an edge that is long beside its distance from these. Windows
-/// are cut at those places. They go to a few of the longest sides from the sources, where bends are
-/// gentle. Keeps references.
+/// a kink where an edge crosses it, and bends where the nearest point of a piece leaves its inside
+/// for an end: no wave fits the values along an edge that is long beside its distance from these.
+/// Windows are cut at such places. They go as far as the longest side that they meet: beyond, a
+/// wave goes on as well from a curve as from a point. Keeps references.
 class NearWindows {
  public:
   NearWindows(const WaveTables& tables, const WaveValues& values)
@@ -91,8 +91,8 @@ class NearWindows {
   /// Of each vertex that was met: with what distance it sent windows last; below all where paths
   /// cannot bend there.
   std::unordered_map<Index, double> bends_;
-  using Key =
-      std::pair<double, int>;  ///< the least distance of what was sent, or of vertex ~second
+  /// The least distance of a window, with its number, or that of a vertex, with ~vertex.
+  using Key = std::pair<double, int>;
   std::priority_queue<Key, std::vector<Key>, std::greater<>> queue_;
   std::vector<Index> edges_;
   double longest_ = 0;
