@@ -38,8 +38,9 @@ WaveFront::WaveFront(const WaveTables& tables, WaveFront&& spare)
 }
 
 WaveFront::Outcome WaveFront::run(const WaveSurface& surface, const SourceSeeds& seeds, bool labels,
-                                  const Progress& progress, const WaveReach& reach) {
-  start(surface, seeds, labels);
+                                  const Progress& progress, const WaveReach& reach,
+                                  CurveStart curves) {
+  start(surface, seeds, labels, curves);
   const auto edges = static_cast<std::size_t>(tables_.edge_count());
   std::size_t next_call = kVisitsBetweenCalls;
   while (ring_.advance(pass_) && !has_all(pass_, reach)) {
@@ -55,16 +56,17 @@ WaveFront::Outcome WaveFront::run(const WaveSurface& surface, const SourceSeeds&
   return Outcome::kDone;
 }
 
-void WaveFront::start(const WaveSurface& surface, const SourceSeeds& seeds, bool labels) {
+void WaveFront::start(const WaveSurface& surface, const SourceSeeds& seeds, bool labels,
+                      CurveStart curves) {
   reset(labels);
   pass_ = pass();
   ring_.begin(pass_);
-  seed(surface, seeds);
+  seed(surface, seeds, curves);
   has_ = 0;
 }
 
 void WaveFront::begin(const WaveSurface& surface, const SourceSeeds& seeds) {
-  start(surface, seeds, false);
+  start(surface, seeds, false, CurveStart::kStraight);
   keys_.clear();
   pass_.longest = tables_.longest_side;  // others cross faces, too
 }
@@ -94,8 +96,9 @@ void WaveFront::hear(std::span<const Heard> vertices, std::span<const Heard> edg
         if (!(value < before - kNotice * face.length[k])) continue;
         const int corner = corner_of_code(code), other = k == corner ? next_corner(k) : k;
         if ((face.touching >> corner & 1U) != 0) {  // a visit of any edge hands it on
-          lower(distance_[face.vertex[other]], nullptr, value + face.length[k], kNoIndex);
-          lower(sample_[face.edge[k]], nullptr, value + face.length[k] / 2, kNoIndex);
+          WaveValues::lower(distance_[face.vertex[other]], nullptr, value + face.length[k],
+                            kNoIndex);
+          WaveValues::lower(sample_[face.edge[k]], nullptr, value + face.length[k] / 2, kNoIndex);
         } else if (!is_shared[face.edge[k]]) {
           continue;
         }
@@ -107,7 +110,7 @@ void WaveFront::hear(std::span<const Heard> vertices, std::span<const Heard> edg
     const SideCode code = tables_.sides[edge][0];
     const double length = tables_.faces[face_of_code(code)].length[corner_of_code(code)];
     if (value < sample_[edge] - kNotice * length) keys_.emplace_back(0.0, edge);
-    lower(sample_[edge], nullptr, value, kNoIndex);
+    WaveValues::lower(sample_[edge], nullptr, value, kNoIndex);
   }
 }
 
@@ -219,23 +222,44 @@ WavePass WaveFront::pass() {
   return pass;
 }
 
-void WaveFront::seed(const WaveSurface& surface, const SourceSeeds& seeds) {
+void WaveFront::seed(const WaveSurface& surface, const SourceSeeds& seeds, CurveStart curves) {
   base_ = least_offset(seeds);
   keys_.clear();
   for (const auto& vertex : seeds.vertices) {
     for (const SideCode code : tables_.corners_at(tables_.rank_of_vertex[vertex.vertex])) {
-      const Index f = tables_.intrinsic_face[face_of_code(code)];
-      const Point2 at =
-          corners_of(lay_out(surface.base.intrinsic.lengths[f]))[corner_of_code(code)];
-      seed_face(surface, {f, at, at, vertex.offset, vertex.group});
+      const Index rank = face_of_code(code);
+      const Point2 at = corners_of(lay_out(tables_.faces[rank].length))[corner_of_code(code)];
+      seed_face(rank, {kNoIndex, at, at, vertex.offset, vertex.group});
     }
   }
-  for (const auto& piece : seeds.pieces) seed_face(surface, piece);
-  for (auto& [key, edge] : keys_) key = key_of(edge);
-  std::ranges::sort(keys_, {}, [&](const auto& pair) {
+  for (const auto& piece : seeds.pieces) seed_face(tables_.rank_of_face[piece.face], piece);
+  const bool windows =
+      curves == CurveStart::kWindows &&
+      std::ranges::any_of(seeds.pieces, [](const auto& piece) { return piece.from != piece.to; });
+  Keys beyond;
+  if (windows) beyond = keys_beyond_windows(seeds);
+  Keys& waiting = windows ? beyond : keys_;
+  for (auto& [key, edge] : waiting) key = key_of(edge);
+  std::ranges::sort(waiting, {}, [&](const auto& pair) {
     return std::pair(pair.first, orders_of(surface, pair.second));
   });
-  ring_.add_seeds(keys_);
+  ring_.add_seeds(waiting);
+}
+
+/// Finds the distances near to the sources by windows; the edges where the wave goes on from them.
+WaveFront::Keys WaveFront::keys_beyond_windows(const SourceSeeds& seeds) {
+  NearWindows near(tables_, values());
+  for (const auto& vertex : seeds.vertices) {
+    near.add_vertex(tables_.rank_of_vertex[vertex.vertex], vertex.offset - base_, vertex.group);
+  }
+  for (const auto& piece : seeds.pieces) near.add_piece(piece, piece.offset - base_);
+  const double radius = near.run();
+  pass_.longest = near.longest();
+  Keys beyond;
+  for (const Index edge : near.edges()) {
+    if (near.is_waiting(edge, radius)) beyond.emplace_back(0.0, edge);
+  }
+  return beyond;
 }
 
 /// The orders of an edge's two ends and of the corner opposite it in its first face. They order
@@ -258,27 +282,17 @@ double WaveFront::key_of(Index edge) const {
                    sample_[samples_ * edge + samples_ / 2]});
 }
 
-/// Lowers the distances at the vertices and samples of the piece's face to the straight ones.
-void WaveFront::seed_face(const WaveSurface& surface, const SourceSeeds::Piece& piece) {
-  const WaveFace& face = tables_.faces[tables_.rank_of_face[piece.face]];
-  const auto at = corners_of(lay_out(surface.base.intrinsic.lengths[piece.face]));
-  const double offset = piece.offset - base_;
+/// Lowers the distances at the vertices and samples of a piece's face to the straight ones.
+void WaveFront::seed_face(Index rank, const SourceSeeds::Piece& piece) {
+  const WaveFace& face = tables_.faces[rank];
+  values().lower_face(face, piece, piece.offset - base_);
+  for (const Index edge : face.edge) keys_.emplace_back(0.0, edge);
+}
+
+WaveValues WaveFront::values() {
   const bool labels = !label_.empty();
-  for (int k = 0; k < 3; ++k) {
-    const Index v = face.vertex[k];
-    lower(distance_[v], labels ? &label_[v] : nullptr, offset + distance_to(piece, at[k]),
-          piece.group);
-    const Point2 side = at[next_corner(k)] - at[k];
-    const bool reversed = (face.reversed >> k & 1U) != 0;
-    for (int i = 0; i < samples_; ++i) {
-      const Point2 p = at[k] + (i + 1.0) / (samples_ + 1) * side;
-      const auto s = static_cast<std::size_t>(samples_) * static_cast<std::size_t>(face.edge[k]) +
-                     static_cast<std::size_t>(reversed ? samples_ - 1 - i : i);
-      lower(sample_[s], labels ? &sample_label_[s] : nullptr, offset + distance_to(piece, p),
-            piece.group);
-    }
-    keys_.emplace_back(0.0, face.edge[k]);
-  }
+  return {samples_, distance_.data(), sample_.data(), labels ? label_.data() : nullptr,
+          labels ? sample_label_.data() : nullptr};
 }
 
 double WaveFront::least_on(Index edge) const {
@@ -288,12 +302,6 @@ double WaveFront::least_on(Index edge) const {
   double least = std::min(distance_[face.vertex[k]], distance_[face.vertex[next_corner(k)]]);
   for (int i = 0; i < samples_; ++i) least = std::min(least, sample_[samples_ * edge + i]);
   return least;
-}
-
-void WaveFront::lower(double& value, Index* label, double candidate, Index group) {
-  if (!(candidate < value)) return;
-  value = candidate;
-  if (label != nullptr) *label = group;
 }
 
 }  // namespace geotherm

@@ -9,6 +9,7 @@
 
 #include "geotherm/progress.h"
 #include "solver/polyhedral/bucket_ring.h"
+#include "solver/polyhedral/near_windows.h"
 #include "solver/polyhedral/wave_kernels.h"
 #include "solver/polyhedral/wave_order.h"
 #include "solver/polyhedral/wave_tables.h"
@@ -21,6 +22,11 @@ struct WaveReach {
   std::span<const Index> ranks{};  ///< ends when these have theirs; empty: all within the radius
   bool is_bounded() const { return radius < kUnreached || !ranks.empty(); }
 };
+
+/// How a wave begins at curves: with the straight distances inside their faces, or with exact
+/// distances in a strip about them (NearWindows), which takes longer and is right also where edges
+/// are long beside their distance.
+enum class CurveStart { kStraight, kWindows };
 
 /// Runs one wave at a time from sources over the surface, and keeps its memory for the next one.
 class WaveFront {
@@ -40,7 +46,8 @@ class WaveFront {
   /// Runs the wave. Where the reach is bounded, what lies within has the bits of a wave that is
   /// not; cost: O(n) once, and after that O(what was reached), if take_reached() follows.
   Outcome run(const WaveSurface& surface, const SourceSeeds& seeds, bool labels,
-              const Progress& progress, const WaveReach& reach = {});
+              const Progress& progress, const WaveReach& reach = {},
+              CurveStart curves = CurveStart::kStraight);
 
   /// A wave in steps, over a piece of a surface of which others have the rest: begin() instead of
   /// run(), then go_on() and hear() in turn, for bands of keys that ascend. No labels.
@@ -89,14 +96,15 @@ class WaveFront {
  private:
   using Keys = std::vector<std::pair<double, Index>>;
 
-  void start(const WaveSurface& surface, const SourceSeeds& seeds, bool labels);
+  void start(const WaveSurface& surface, const SourceSeeds& seeds, bool labels, CurveStart curves);
   void reset(bool labels);
   bool has_all(const WavePass& pass, const WaveReach& reach);
   bool take_corner(Index rank, std::vector<Reached>& out);
   bool clear_edge(Index edge);
-  void seed(const WaveSurface& surface, const SourceSeeds& seeds);
-  void seed_face(const WaveSurface& surface, const SourceSeeds::Piece& piece);
-  void lower(double& value, Index* label, double candidate, Index group);
+  void seed(const WaveSurface& surface, const SourceSeeds& seeds, CurveStart curves);
+  void seed_face(Index rank, const SourceSeeds::Piece& piece);
+  Keys keys_beyond_windows(const SourceSeeds& seeds);
+  WaveValues values();
   double key_of(Index edge) const;
   std::array<WaveOrder, 3> orders_of(const WaveSurface& surface, Index edge) const;
   WavePass pass();

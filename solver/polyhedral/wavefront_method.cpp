@@ -95,7 +95,8 @@ Result<DistanceResult> WavefrontMethod::State::answer(const SourceSeeds& seeds,
   auto front = take_spare_front(bounded);
   const int on_edge = samples == Samples::kMidpoint ? 1 : 3;
   if (!front) front = std::make_unique<WaveFront>(tables, on_edge);
-  const WaveFront::Outcome outcome = front->run(*surface, seeds, query.nearest, progress, reach);
+  const WaveFront::Outcome outcome =
+      front->run(*surface, seeds, query.nearest, progress, reach, CurveStart::kWindows);
   const std::size_t visits = front->visits();
   DistanceResult result;
   if (outcome == WaveFront::Outcome::kDone) {

@@ -61,14 +61,15 @@ TEST_P(RefinedShape, HasLessErrorEachTime) {
   const SourceSet sources = mixed_sources(*mesh);
   // Measured: 0.5 to 0.75 for fast marching, which is of first order, the exact distances having
   // kinks; up to 0.92 for heat, which is told the distances around sources also where faces are
-  // large; wavefronts begin near exact.
-  constexpr double kFactor = 0.95;
+  // large; wavefronts begin near exact, and what they do not notice stays.
+  constexpr double kFactor = 0.95, kNotNoticed = 3e-5;
   for (const MethodKind kind :
        {MethodKind::kHeat, MethodKind::kFastMarching, MethodKind::kWavefront}) {
     const double once = mean_error(mesh, sources, kind, 0);
     const double twice = mean_error(mesh, sources, kind, 1);
-    EXPECT_LT(twice, kFactor * once) << to_text(kind);
-    EXPECT_LT(mean_error(mesh, sources, kind, 2), kFactor * twice) << to_text(kind);
+    EXPECT_LT(twice, std::max(kFactor * once, kNotNoticed)) << to_text(kind);
+    EXPECT_LT(mean_error(mesh, sources, kind, 2), std::max(kFactor * twice, kNotNoticed))
+        << to_text(kind);
   }
 }
 

@@ -56,6 +56,19 @@ TEST_P(WaveInvariance, UnderRenumbering) {
   EXPECT_LE(relative_difference(back, reference), kInvariantRoundOff);
 }
 
+TEST_P(WaveInvariance, OfCurvesUnderRenumbering) {
+  std::vector<Index> number;
+  const Draft other = renumbered(draft, 22, number);
+  const Face& face = draft.faces[draft.faces.size() / 3];
+  SourceSet curve, renamed;
+  curve.edges = {{face[0], face[1]}, {face[1], face[2]}};
+  for (const auto& [a, b] : curve.edges) renamed.edges.push_back({number[a], number[b]});
+  const auto d = distances(finish(other), kind, renamed);
+  std::vector<double> back(d.size());
+  for (std::size_t v = 0; v < d.size(); ++v) back[v] = d[number[v]];
+  EXPECT_LE(relative_difference(back, distances(finish(draft), kind, curve)), kInvariantRoundOff);
+}
+
 /// Surfaces that no turning of faces orients: which edges stay in disagreement, and are not
 /// flipped, has to follow from the shape.
 class OneSided : public testing::TestWithParam<std::tuple<std::uint64_t, MethodKind>> {};
