@@ -120,8 +120,9 @@ Result<const VectorParts*> VectorHeat::State::vector_parts(const Progress& progr
   const TangentFans& fans = out->directions->fans;
   out->frames.resize(static_cast<std::size_t>(mesh().vertex_count()));
   for (Index v = 0; v < mesh().vertex_count(); ++v) {
-    if (fans.vertex(v).kind == TangentFans::Kind::kNone) continue;
-    out->frames[v] = out->directions->frame_at(SurfacePoint::at_vertex(v));
+    const Index own = mesh().standing_for(v);
+    if (fans.vertex(own).kind == TangentFans::Kind::kNone) continue;
+    out->frames[v] = out->directions->frame_at(SurfacePoint::at_vertex(own));
   }
   out->flipped = flip_directions(*surface, fans);
   out->links = find_links(&out->flipped);
