@@ -61,7 +61,12 @@ class Collector {
     for (std::size_t i = 1; i < faces.size(); ++i) pass(points[i], faces[i - 1], faces[i]);
     const bool closed = points.size() > 2 && same_place(points.front(), points.back());
     const bool returns = curve.closed && !faces.empty();
-    if (closed || returns) pass(points.front(), faces.back(), faces.front());
+    if (closed || returns) {
+      pass(points.front(), faces.back(), faces.front());
+    } else if (!faces.empty()) {
+      leave(points.front());
+      leave(points.back());
+    }
     return {};
   }
 
@@ -109,6 +114,12 @@ class Collector {
   void pass(const SurfacePoint& at, Index from, Index to) {
     const Index e = edge_of(surface_, at);
     if (e != kNoIndex && from != to) ++out_.crossings[e];
+  }
+
+  /// An end inside a border edge parts the vertices of that edge as a passage would.
+  void leave(const SurfacePoint& end) {
+    const Index e = edge_of(surface_, end);
+    if (e != kNoIndex && surface_.edges().sides(e).size() == 1) ++out_.crossings[e];
   }
 
   const PathSurface& surface_;

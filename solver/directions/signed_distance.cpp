@@ -27,11 +27,12 @@ class Parts {
       : state_(state),
         curves_(curves),
         parts_(curves.on_curve.size()),
-        sides_(curves.on_curve.size()) {}
+        sides_(curves.on_curve.size()),
+        votes_(curves.on_curve.size()) {}
 
   enum class Sides {
     kFound,
-    kNone,         ///< no piece has a side: the curves go there and back
+    kNone,         ///< on a component of the surface the curves go there and back
     kContrary,     ///< a part is left of one curve and right of another
     kNotSeparate,  ///< a part is on both sides of one curve
   };
@@ -43,7 +44,7 @@ class Parts {
         parts_.join(edges.low(e), edges.high(e));
       }
     }
-    vote();
+    if (go_there_and_back()) return Sides::kNone;
     bool fits = true;
     for (Index e = 0; e < edges.edge_count(); ++e) {
       const Index a = edges.low(e), b = edges.high(e);
@@ -51,11 +52,24 @@ class Parts {
       const bool crossed = curves_.crossings[e] % 2 != 0;
       fits = fits && crossed == (sign(a) != sign(b));
     }
-    if (beside_.empty() && has_no_side_) return Sides::kNone;
     const auto on_both = [](const auto& each) { return each.second == (kLeft | kRight); };
     if (std::ranges::any_of(beside_, on_both)) return Sides::kNotSeparate;
     if (std::ranges::count(sides_, kLeft | kRight) > 0) return Sides::kContrary;
     return fits ? Sides::kFound : Sides::kNotSeparate;
+  }
+
+  /// Whether a component of the surface has corners beside the curves and all of them are on
+  /// neither side.
+  bool go_there_and_back() {
+    vote();
+    const EdgeTable& edges = state_.paths.edges();
+    DisjointSets components(votes_.size());
+    for (Index e = 0; e < edges.edge_count(); ++e) components.join(edges.low(e), edges.high(e));
+    std::vector<int> of_component(votes_.size());
+    for (Index v = 0; v < static_cast<Index>(votes_.size()); ++v) {
+      of_component[components.root(v)] |= votes_[v];
+    }
+    return std::ranges::count(of_component, kSideless) > 0;
   }
 
   /// -1 to the left of the curves, 1 to the right, 0 where they are not.
@@ -66,6 +80,7 @@ class Parts {
 
  private:
   enum : int { kLeft = 1, kRight = 2 };
+  enum : int { kSided = 1, kSideless = 2 };
 
   bool on_curve(Index v) const { return curves_.on_curve[v] != 0; }
 
@@ -81,20 +96,22 @@ class Parts {
       for (int k = 0; k < 3; ++k) {
         if (on_curve(state_.paths.face(face)[k])) continue;
         const auto [side, curve] = side_of(at, at[k], {pieces.data() + begin, pieces.data() + end});
-        has_no_side_ = has_no_side_ || side == 0;
+        const Index v = state_.paths.face(face)[k];
+        votes_[v] |= side == 0 ? kSideless : kSided;
         if (side == 0) continue;
-        const Index part = parts_.root(state_.paths.face(face)[k]);
+        const Index part = parts_.root(v);
         beside_[{part, curve}] |= side > 0 ? kLeft : kRight;
         sides_[part] |= side > 0 ? kLeft : kRight;
       }
     }
   }
 
-  /// Above 0 to the left, and of which curve.
+  /// Above 0 to the left, and of which curve. A piece that is short beside its distance knows its
+  /// direction, and so the side of p, the less well.
   static std::pair<double, std::size_t> side_of(const CurveLayout& at, const Point2& p,
                                                 std::span<const CurvePiece> pieces) {
     constexpr double kAsNear = 1e-9, kOnTheLine = 1e-12;
-    double nearest = kUnreached, side = 0;
+    double nearest = kUnreached, side = 0, rounding = 0;
     std::size_t curve = 0;
     const double size = (at[1] - at[0]).norm() + (at[2] - at[0]).norm();
     for (const CurvePiece& piece : pieces) {
@@ -104,19 +121,20 @@ class Parts {
       const double t = std::clamp(along.dot(p - from) / (length * length), 0.0, 1.0);
       const double distance = (p - from - t * along).norm();
       if (distance > nearest + kAsNear * size) continue;
-      if (distance < nearest - kAsNear * size) side = 0;
+      if (distance < nearest - kAsNear * size) side = rounding = 0;
       nearest = std::min(nearest, distance);
       curve = piece.curve;
       side += cross(along, p - from) / length;
+      rounding += kOnTheLine * size * (1 + (p - from).norm() / length);
     }
-    return {std::abs(side) > kOnTheLine * size ? side : 0, curve};
+    return {std::abs(side) > rounding ? side : 0, curve};
   }
 
   const Directions::State& state_;
   const CurvePieces& curves_;
   DisjointSets parts_;
-  std::vector<int> sides_;    ///< of curves that a part is on, at its root
-  bool has_no_side_ = false;  ///< a corner beside a curve that is on neither of its sides
+  std::vector<int> sides_;  ///< of curves that a part is on, at its root
+  std::vector<int> votes_;  ///< of a corner beside curves: whether it is on a side of them
   std::map<std::pair<Index, std::size_t>, int> beside_;  ///< sides of a curve that a part is on
 };
 
@@ -140,7 +158,18 @@ SourceSeeds seeds_of(const Directions::State& state, const CurvePieces& curves) 
   return seeds;
 }
 
+Error no_left_and_right() {
+  return {ErrorCode::kBadInput,
+          "the curves have no left and right, for they go there and back",
+          {"give each piece once"}};
+}
+
 }  // namespace
+
+Result<void> refuse_there_and_back(const Directions::State& state, const CurvePieces& curves) {
+  if (Parts(state, curves).go_there_and_back()) return no_left_and_right();
+  return {};
+}
 
 Result<SignedDistance> Directions::signed_distance(std::span<const SurfacePath> curves,
                                                    const Progress& progress) const try {
@@ -152,9 +181,7 @@ Result<SignedDistance> Directions::signed_distance(std::span<const SurfacePath> 
     case Parts::Sides::kFound:
       break;
     case Parts::Sides::kNone:
-      return Error{ErrorCode::kBadInput,
-                   "the curves have no left and right, for they go there and back",
-                   {"give each piece once"}};
+      return no_left_and_right();
     case Parts::Sides::kContrary:
       return Error{ErrorCode::kBadInput,
                    "part of the surface is left of one curve and right of another",

@@ -90,6 +90,9 @@ Result<SignedDistance> VectorHeat::signed_distance(std::span<const SurfacePath> 
     }
   }
   if (rows.empty()) return Error{ErrorCode::kBadInput, "the curves have no length", {}};
+  if (auto sided = refuse_there_and_back(*of_vectors.directions, *collected); !sided) {
+    return sided.error();
+  }
   SignedDistance out;
   out.rule = SideRule::kHeat;
   const auto warmth = state.warm(rows, true, out.warnings, part_of(progress, 0.2, 0.4));

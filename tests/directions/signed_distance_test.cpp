@@ -25,22 +25,36 @@ SignedDistance distance_to(const MeshPtr& mesh, const std::vector<SurfacePath>& 
 }
 
 /// On a plane, straight from place to place.
-SurfacePath polygon(const MeshPtr& mesh, const std::vector<Vec3>& corners) {
+SurfacePath straight(const MeshPtr& mesh, const std::vector<Vec3>& places) {
   const auto directions = *Directions::build(mesh);
   SurfacePath path;
-  for (std::size_t i = 0; i < corners.size(); ++i) {
-    const Vec3 way = corners[(i + 1) % corners.size()] - corners[i];
-    const SurfacePoint from = closest_point(*mesh, corners[i])->point;
+  for (std::size_t i = 1; i < places.size(); ++i) {
+    const Vec3 way = places[i] - places[i - 1];
+    const SurfacePoint from = closest_point(*mesh, places[i - 1])->point;
     const auto frame = directions->frame_at(from);
     const auto line =
         directions->trace(from, std::atan2(way.dot(frame->e2), way.dot(frame->e1)), way.norm());
     EXPECT_TRUE(line) << line.error().message;
     SurfacePath piece = line->path;
-    piece.points.back() = closest_point(*mesh, corners[(i + 1) % corners.size()])->point;
+    piece.points.back() = closest_point(*mesh, places[i])->point;
     append(path, piece);
   }
+  return path;
+}
+
+SurfacePath polygon(const MeshPtr& mesh, std::vector<Vec3> corners) {
+  corners.push_back(corners.front());
+  SurfacePath path = straight(mesh, corners);
   path.closed = true;
   return path;
+}
+
+/// To the line from a to b in the plane, negative to its left.
+double to_line(const Vec3& p, const Vec3& a, const Vec3& b) {
+  const Vec3 way = b - a, there = p - a;
+  const double t = std::clamp(way.dot(there) / way.squaredNorm(), 0.0, 1.0);
+  const double left = way.x() * there.y() - way.y() * there.x();
+  return std::copysign((there - t * way).norm(), -left);
 }
 
 /// To a square from (a, a) to (b, b), negative inside.
@@ -91,6 +105,39 @@ double worst(const SignedDistance& found, const std::vector<double>& want) {
   return std::min(same, other);
 }
 
+/// Which end inside edges of the border, near a corner of the square or far from one.
+TEST(SignedDistances, ToALineFromBorderToBorderAreExact) {
+  const MeshPtr mesh = finish(jittered_plane(14, 0.2, 3));
+  const std::pair<Vec3, Vec3> lines[] = {{{0.52, 0, 0}, {0, 0.52, 0}},
+                                         {{0, 0.51, 0}, {1, 0.47, 0}},
+                                         {{0.31, 1, 0}, {0.77, 0, 0}},
+                                         {{0.02, 0, 0}, {0, 0.03, 0}},
+                                         {{0.5, 0, 0}, {0, 0.52, 0}}};
+  for (const auto& [a, b] : lines) {
+    const SurfacePath line = straight(mesh, {a, b});
+    for (const SideRule rule : {SideRule::kAuto, SideRule::kSides}) {
+      const SignedDistance found = distance_to(mesh, {line}, rule);
+      EXPECT_EQ(found.rule, SideRule::kSides);
+      EXPECT_EQ(found.warnings.size(), 0U);
+      for (Index v = 0; v < mesh->vertex_count(); ++v) {
+        EXPECT_NEAR(found.distances[v], to_line(mesh->positions()[v], a, b), kSignedExact) << v;
+      }
+    }
+  }
+}
+
+TEST(SignedDistances, ToALineThatEndsInTheMiddleHaveNoSides) {
+  const MeshPtr mesh = finish(plane_grid(8, 8, 1, 1));
+  const std::pair<Vec3, Vec3> lines[] = {{{0.52, 0, 0}, {0.52, 0.55, 0}},  // in a face
+                                         {{0.52, 0, 0}, {0.52, 0.5, 0}}};  // in an edge
+  for (const auto& [a, b] : lines) {
+    const SurfacePath line = straight(mesh, {a, b});
+    const auto found = signed_distance(mesh, {&line, 1}, SideRule::kSides);
+    ASSERT_FALSE(found);
+    EXPECT_NE(found.error().message.find("do not separate"), std::string::npos);
+  }
+}
+
 /// Of two hundred sides across the faces.
 TEST(SignedDistances, ToACircleOnThePlaneAreRightToAThousandth) {
   constexpr double kRadius = 0.3;
@@ -117,6 +164,19 @@ TEST(SignedDistances, ToACircleOnTheSphereAreRightToAThousandth) {
   }
   const auto circle = level_set(mesh, z, kHeight);
   EXPECT_LT(worst(distance_to(mesh, circle, SideRule::kSides), want), kCircle * std::acos(kHeight));
+}
+
+TEST(SignedDistances, ToIsolinesThatEndOnTheBorderAreExact) {
+  const MeshPtr mesh = finish(jittered_plane(14, 0.2, 6));
+  std::vector<double> values, want;
+  for (const Vec3& p : mesh->positions()) {
+    values.push_back(p.x() + 2 * p.y());
+    want.push_back(to_line(p, {0.83, 0, 0}, {0, 0.415, 0}));
+  }
+  const auto lines = level_set(mesh, values, 0.83);
+  ASSERT_EQ(lines.size(), 1U);
+  EXPECT_FALSE(lines.front().closed);
+  EXPECT_LT(worst(distance_to(mesh, lines, SideRule::kSides), want), kSignedExact);
 }
 
 /// Two loops round a torus leave two parts, and one of them none.
@@ -161,6 +221,17 @@ TEST(SignedDistances, OfABrokenCircleComeFromHeat) {
   EXPECT_LT(worst(whole, want), 0.05 * kRadius);
 }
 
+void expect_there_and_back(const MeshPtr& mesh, const std::vector<SurfacePath>& curves) {
+  for (const SideRule rule : {SideRule::kAuto, SideRule::kSides, SideRule::kHeat}) {
+    const auto none = signed_distance(mesh, curves, rule);
+    ASSERT_FALSE(none);
+    EXPECT_EQ(none.error().code, ErrorCode::kBadInput);
+    EXPECT_EQ(
+        sentence(none.error()),
+        "the curves have no left and right, for they go there and back; give each piece once");
+  }
+}
+
 TEST(SignedDistances, RefuseCurvesThatContradictEachOther) {
   const MeshPtr mesh = finish(jittered_plane(14, 0.3, 3));
   const auto ring = [&](double a, double b) {
@@ -181,9 +252,32 @@ TEST(SignedDistances, RefuseCurvesThatContradictEachOther) {
   SurfacePath there = outer;
   there.closed = false;
   append(there, reversed(there));
-  const auto none = signed_distance(mesh, {&there, 1}, SideRule::kAuto);
-  ASSERT_FALSE(none);
-  EXPECT_NE(none.error().message.find("there and back"), std::string::npos) << none.error().message;
+  expect_there_and_back(mesh, {there});
+}
+
+/// Each way by itself, such that rounding differs.
+TEST(SignedDistances, RefuseCurvesThatGoThereAndBack) {
+  const MeshPtr mesh = finish(jittered_plane(14, 0.2, 3));
+  const Vec3 a(0.2, 0.21, 0), b(0.83, 0.7, 0), middle = a + 0.4 * (b - a);
+  const SurfacePath way = straight(mesh, {a, b}), back = straight(mesh, {b, a});
+  SurfacePath both = way;
+  append(both, straight(mesh, {b, middle, a}));
+  expect_there_and_back(mesh, {both});
+  expect_there_and_back(mesh, {way, back});
+  for (const double beside : {1e-4, 1e-5, 1e-6, 1e-7, 1e-8}) {  // of a vertex
+    const Vec3 at = mesh->positions()[grid_vertex(14, 7, 6)] + Vec3(0, beside, 0);
+    const Vec3 from = at - Vec3(0.31, 0.17, 0), to = at + Vec3(0.31, 0.17, 0);
+    SurfacePath near = straight(mesh, {from, to, from + 0.3 * (to - from)});
+    append(near, straight(mesh, {from + 0.3 * (to - from), from}));
+    expect_there_and_back(mesh, {near});
+  }
+  const Draft sheet = jittered_plane(14, 0.2, 3);
+  Draft sheets = transformed(sheet, 1, {3, 0, 0}, false);
+  append(sheets, sheet);
+  const MeshPtr two = finish(sheets);
+  const SurfacePath loop = polygon(two, {{3.2, 0.2, 0}, {3.7, 0.2, 0}, {3.7, 0.7, 0}});
+  expect_there_and_back(two, {loop, straight(two, {a, b, a})});
+  EXPECT_TRUE(signed_distance(two, {&loop, 1}, SideRule::kHeat));
 }
 
 TEST(SignedDistances, RefuseWhatIsNoCurve) {
