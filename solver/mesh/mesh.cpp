@@ -166,13 +166,21 @@ SourceGroups source_groups(const SourceSet& sources) {
     if (at != end_of.end()) sets.join(i, at->second);
   }
   SourceGroups groups;
+  groups.of_point.resize(sources.points.size());
   std::unordered_map<Index, Index> number;
   const auto group_of = [&](Index i) {
     const auto [at, fresh] = number.try_emplace(sets.root(i), groups.count);
     groups.count += fresh;
     return at->second;
   };
-  for (Index i = 0; i < points; ++i) groups.of_point.push_back(group_of(i));
+  const auto is_of_edges = [&](const SurfacePoint& point) {
+    return point.is_vertex() && end_of.contains(point.vertex);
+  };
+  for (const bool of_edges : {false, true}) {
+    for (Index i = 0; i < points; ++i) {
+      if (is_of_edges(sources.points[i]) == of_edges) groups.of_point[i] = group_of(i);
+    }
+  }
   for (Index e = 0; e < edges; ++e) {
     groups.of_edge.push_back(group_of(points + e));
   }

@@ -127,8 +127,18 @@ TEST(SourceGroupsTest, TouchingEdgesAndTheirEndsAreOneGroup) {
   set.edges = {{1, 2}, {2, 4}, {7, 8}};
   const SourceGroups groups = source_groups(set);
   EXPECT_EQ(groups.count, 3);
-  EXPECT_EQ(groups.of_point, (std::vector<Index>{0, 1}));
-  EXPECT_EQ(groups.of_edge, (std::vector<Index>{0, 0, 2}));
+  EXPECT_EQ(groups.of_point, (std::vector<Index>{1, 0})) << "points by themselves come first";
+  EXPECT_EQ(groups.of_edge, (std::vector<Index>{1, 1, 2}));
+}
+
+TEST(SourceGroupsTest, CurvesAreNumberedAsTheirPointsStand) {
+  SourceSet set = SourceSet::of_vertices({8, 9, 4, 3});
+  set.edges = {{1, 2}, {2, 4}, {7, 8}, {5, 6}};
+  set.segments = {{0, {1, 0, 0}, {0, 1, 0}, 0}};
+  const SourceGroups groups = source_groups(set);
+  EXPECT_EQ(groups.of_point, (std::vector<Index>{2, 0, 3, 1}));
+  EXPECT_EQ(groups.of_edge, (std::vector<Index>{3, 3, 2, 4}));
+  EXPECT_EQ(groups.of_segment, (std::vector<Index>{5}));
 }
 
 }  // namespace

@@ -52,10 +52,10 @@ struct SourceSet {
   bool operator==(const SourceSet&) const = default;
 };
 
-/// Numbers the sources for labels: points first, then edges, segments and points of cells, each as
-/// in the set. A point has a group of its own; edges that touch, and points that are their ends,
-/// are one group, and so are the segments of one curve. Groups are numbered 0, 1, ... in the order
-/// in which they first stand.
+/// Numbers the sources for labels. A point has a group of its own; edges that touch, and points
+/// that are their ends, are one group, and so are the segments of one curve. Groups are numbered 0,
+/// 1, ... by kind: points that end no edge, edges, segments, points of cells; and each kind in the
+/// order in which it first stands in the set, edges by the points among them first.
 struct SourceGroups {
   std::vector<Index> of_point, of_edge, of_segment;  ///< the group of each
   Index count = 0;                                   ///< of groups
