@@ -101,16 +101,27 @@ Result<std::vector<AtVertex>> given_in(const SpreadArguments& arguments, const s
                   (numbers == 2 ? "VERTEX:X:Y, along e1 and e2 of the vertex" : "VERTEX:VALUE") +
                   (where == option ? "" : ", or the numbers with blanks between")}};
   }
-  std::map<Index, const AtVertex*> first;
-  for (const AtVertex& given : out) {
-    const auto [known, is_new] = first.try_emplace(given.vertex, &given);
-    if (is_new || known->second->numbers == given.numbers) continue;
-    return Error{ErrorCode::kBadInput,
-                 option + ": vertex " + std::to_string(given.vertex) + " was given " +
-                     numbers_text(*known->second) + " and " + numbers_text(given),
-                 {"give one for each vertex"}};
-  }
   return out;
+}
+
+/// Refuses two things that differ at one vertex, or at several that were merged into one.
+Result<void> one_at_each(const std::vector<AtVertex>& given, const TriangleMesh& mesh) {
+  std::map<Index, const AtVertex*> first;
+  for (const AtVertex& each : given) {
+    const auto [known, is_new] = first.try_emplace(mesh.standing_for(each.vertex), &each);
+    const AtVertex& other = *known->second;
+    if (is_new || other.numbers == each.numbers) continue;
+    const std::string vertex = std::to_string(each.vertex);
+    return Error{
+        ErrorCode::kBadInput,
+        each.source.where + ": " +
+            (other.vertex == each.vertex ? "vertex " + vertex + " was"
+                                         : "vertices " + std::to_string(other.vertex) + " and " +
+                                               vertex + ", which are one, were") +
+            " given " + numbers_text(other) + " and " + numbers_text(each),
+        {"give one for each vertex"}};
+  }
+  return {};
 }
 
 struct SpreadWork {
@@ -132,6 +143,7 @@ Result<SpreadWork> spread_over(const SpreadArguments& arguments, const ViewerSta
     const auto placed = resolve_sources({&each.source, 1}, *model->mesh);
     if (!placed) return placed.error();
   }
+  if (auto single = one_at_each(given, *model->mesh); !single) return single.error();
   SpreadWork work{*std::move(model), {}, {}, 0, 0};
   const Stopwatch setup;
   const SpreadOptions options{asked.options.backend, asked.options.time_step.factor,

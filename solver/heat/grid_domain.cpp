@@ -108,7 +108,7 @@ Result<SourceAnchors> GridDomain::place(const SourceSet& sources) const {
   if (auto valid = check_space_sources(sources, "samples or points of cells"); !valid) {
     return valid.error();
   }
-  if (auto none = refuse_offsets(sources); !none) return none.error();
+  if (auto none = refuse_offsets(sources, MethodKind::kFastMarching); !none) return none.error();
   AnchorMap anchors;
   for (const SurfacePoint& point : sources.points) {
     if (point.vertex < 0 || point.vertex >= input_vertices) {

@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
+#include <optional>
 #include <span>
 #include <string>
 #include <utility>
@@ -18,6 +19,13 @@ namespace geotherm {
 namespace {
 
 Error bad_source(const std::string& message) { return {ErrorCode::kBadInput, message}; }
+
+/// The method that takes offsets on what such cells are made of.
+std::optional<MethodKind> method_with_offsets(const CellComplex& cells) {
+  if (cells.cells_name == "tets") return MethodKind::kFastMarching;
+  if (cells.cells_name == "polygons") return MethodKind::kWavefront;
+  return {};
+}
 
 /// Checks the sources of a CellComplex.
 Result<void> check_cell_sources(const CellDomain& domain, const SourceSet& sources) {
@@ -49,7 +57,7 @@ Result<void> check_cell_sources(const CellDomain& domain, const SourceSet& sourc
                                cells.cell_name + " " + std::to_string(point.cell));
     if (!valid) return valid;
   }
-  return refuse_offsets(sources);
+  return refuse_offsets(sources, method_with_offsets(cells));
 }
 
 using Triangle = std::array<std::size_t, 3>;

@@ -279,20 +279,20 @@ SourceAnchors AnchorMap::finish(const Components& parts) const {
   return out;
 }
 
-Result<void> refuse_offsets(const SourceSet& sources, Hint hint) {
+Result<void> refuse_offsets(const SourceSet& sources, std::optional<MethodKind> other) {
   for (const double offset : sources.offsets) {
     if (!(offset > 0)) continue;
-    return Error{ErrorCode::kBadInput,
-                 "the heat method takes no offsets, and one is " + rounded_text(offset),
-                 std::move(hint)};
+    return Error{
+        other ? ErrorCode::kBadInput : ErrorCode::kNotAvailable,
+        "the heat method takes no offsets, and one is " + rounded_text(offset),
+        other ? Hint{"use ", SettingHint{"method", {to_text(*other)}}} : Hint{"leave it out"}};
   }
   return {};
 }
 
 Result<SourceAnchors> place_sources(const Surface& surface, const SourceSet& sources) {
   if (const auto valid = check_sources(surface, sources); !valid) return valid.error();
-  const Hint other = {"use ", SettingHint{"method", {"wavefront"}}};
-  if (auto none = refuse_offsets(sources, other); !none) return none.error();
+  if (auto none = refuse_offsets(sources, MethodKind::kWavefront); !none) return none.error();
   Placer placer(surface);
   for (const SurfacePoint& point : sources.points) placer.add(point);
   for (const auto& edge : sources.edges) placer.add_edge(edge);

@@ -5,10 +5,12 @@
 #include <algorithm>
 #include <array>
 #include <map>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "geotherm/distance_method.h"
 #include "geotherm/error.h"
 #include "geotherm/sources.h"
 #include "solver/linear/symmetric_pattern.h"
@@ -68,8 +70,9 @@ class AnchorMap {
   std::map<Index, SourceAnchors::Anchor> anchors_;
 };
 
-/// Errors (kBadInput): an offset above 0. `hint`: of that error.
-Result<void> refuse_offsets(const SourceSet& sources, Hint hint = {});
+/// Errors: an offset above 0; kBadInput where `other`, which takes them, is a method of the same
+/// space, else kNotAvailable.
+Result<void> refuse_offsets(const SourceSet& sources, std::optional<MethodKind> other);
 
 /// Errors (kBadInput): those of check_sources(), and offsets above 0.
 Result<SourceAnchors> place_sources(const Surface& surface, const SourceSet& sources);

@@ -269,9 +269,20 @@ TEST_F(Program, SpreadRefusesContradictions) {
   const ProgramRun values =
       run_program(folder.path("."), {"extend", "square.obj", "--value", "0:1", "--value", "0:2"});
   EXPECT_EQ(values.code, 2);
-  EXPECT_NE(values.err.find("--value: vertex 0 was given 1 and 2"), std::string::npos);
+  EXPECT_NE(values.err.find("--value 0:2: vertex 0 was given 1 and 2"), std::string::npos)
+      << values.err;
   expect_refused({"transport", "square.obj", "--vector", "3:0:1", "--vector", "3:0:2"},
-                 "--vector: vertex 3 was given 0:1 and 0:2");
+                 "--vector 3:0:2: vertex 3 was given 0:1 and 0:2");
+  // What was merged is one vertex, and as much the command line's mistake.
+  folder.write("apart.obj",
+               "v 0 0 0\nv 2 0 0\nv 0 2 0\nv 2 0 0\nv 2 2 0\nv 0 2 0\nf 1 2 3\nf 4 5 6\n");
+  const ProgramRun merged = run_program(
+      folder.path("."),
+      {"extend", "apart.obj", "--weld", "0", "--value", "1:1", "--value", "0:4", "--value", "3:2"});
+  EXPECT_EQ(merged.code, 2);
+  EXPECT_NE(merged.err.find("--value 3:2: vertices 1 and 3, which are one, were given 1 and 2"),
+            std::string::npos)
+      << merged.err;
 }
 
 /// On the plane, where all of it can be worked out from the places that are written.
