@@ -267,11 +267,10 @@ Result<void> assess_heat(const HeatOptions& options, double unit_t, const CellCo
                              " only";
     const bool by_design = !heat && options.constraint.mode == ConstraintMode::kPenalty;
     if (!std::isfinite(residual) || (residual > kUselessResidual && !by_design)) {
-      const Hint others = {"try another backend or ",
-                           SettingHint{"laplacian", {"intrinsic-delaunay"}}};
-      return with_time_hint({ErrorCode::kNumericalFailure, text + ", which is no solution",
-                             is_extreme_time(unit_t) ? Hint() : others},
-                            unit_t, options.time_step.rule);
+      return with_time_hint(
+          {ErrorCode::kNumericalFailure, text + ", which is no solution",
+           no_answer_hint(heat ? ConstraintMode::kPinSources : options.constraint.mode)},
+          unit_t, options.time_step.rule);
     }
     result.warnings.push_back({text});
   }

@@ -79,7 +79,9 @@ void note_without_answer(const Components& parts, Index loose, Index lost, const
 Result<std::shared_ptr<const LinearSystem>> VectorHeat::State::factorize(double time) const {
   FactorOptions options;
   options.threads = threads;
-  return LinearSystem::build(*surface, 1, time, {}, options);
+  auto system = LinearSystem::build(*surface, 1, time, {}, options);
+  if (!system) return about_time(system.error());
+  return system;
 }
 
 Result<std::vector<Index>> VectorHeat::State::rows_of(std::span<const Index> vertices) const {

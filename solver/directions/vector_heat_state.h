@@ -41,6 +41,14 @@ struct VectorParts {
   std::optional<Error> broken;
 };
 
+/// The error of a system of mass and t stiffness, which is definite unless t drowns the mass.
+inline Error about_time(Error error) {
+  if (error.code == ErrorCode::kNumericalFailure) {
+    error.hint = {"lower ", SettingHint{"time-factor"}, ", or try another backend"};
+  }
+  return error;
+}
+
 struct VectorHeat::State {
   int threads = 1;
   double t = 1;  ///< as asked for, in squares of the surface's unit

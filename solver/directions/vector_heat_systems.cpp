@@ -190,7 +190,7 @@ Result<VectorHeat::State::VectorFactor> VectorHeat::State::vector_factor(
         }
       },
       threads);
-  if (!made) return made.error();
+  if (!made) return about_time(made.error());
   VectorFactor out{time, *std::move(made)};
   if (!factor_) factor_ = out;
   return out;

@@ -204,6 +204,11 @@ double shift_of(const Components& components, const PoissonAnswer& answer, Index
 
 }  // namespace
 
+Hint no_answer_hint(ConstraintMode mode) {
+  if (mode != ConstraintMode::kPenalty) return {"try another backend"};
+  return {"raise the penalty, or use ", SettingHint{"constraint", {"pin-sources"}}};
+}
+
 Result<void> normalize(const Domain& domain, PoissonAnswer& answer,
                        std::span<const SourceAnchors> anchors,
                        std::span<const std::vector<NearVertex>> near, ConstraintMode mode,
@@ -216,7 +221,7 @@ Result<void> normalize(const Domain& domain, PoissonAnswer& answer,
   if (const Index v = scatter.first_not_finite(); v != kNoIndex) {
     return Error{ErrorCode::kNumericalFailure,
                  "the distance of vertex " + std::to_string(v) + " is not finite",
-                 {"try another backend or ", SettingHint{"laplacian", {"intrinsic-delaunay"}}}};
+                 no_answer_hint(mode)};
   }
   const double unit = domain.unit;
   for (std::size_t c = 0; c < results.size(); ++c) {

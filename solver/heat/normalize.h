@@ -29,6 +29,9 @@ Result<void> normalize(const Domain& domain, PoissonAnswer& answer,
                        std::span<const std::vector<NearVertex>> near, ConstraintMode mode,
                        int threads, std::span<DistanceResult> results);
 
+/// What may help where the Poisson step gave what is no answer.
+Hint no_answer_hint(ConstraintMode mode);
+
 /// phi of one column after normalize(), as the distances have it but for the clamping.
 std::vector<double> shifted_phi(const Domain& domain, const PoissonAnswer& answer,
                                 const SourceAnchors& anchors, ConstraintMode mode,

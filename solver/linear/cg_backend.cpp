@@ -153,7 +153,7 @@ class ConjugateGradient final : public Factorization {
         return Error{ErrorCode::kNumericalFailure,
                      "the matrix is not positive definite (curvature " + rounded_text(curvature) +
                          " in iteration " + std::to_string(report.iterations) + ")",
-                     {"try ", SettingHint{"laplacian", {"intrinsic-delaunay"}}},
+                     {"try another backend"},
                      kCgName};
       }
       const double step = rho / curvature;
@@ -207,7 +207,7 @@ class CgAnalysis final : public Analysis {
                    "the matrix is not positive definite (diagonal " + rounded_text(*bad) +
                        " in column " + std::to_string(bad - diagonal.begin()) + " of " +
                        std::to_string(diagonal.size()) + ")",
-                   {"try ", SettingHint{"laplacian", {"intrinsic-delaunay"}}},
+                   {"try another backend"},
                    kCgName};
     }
     return std::unique_ptr<Factorization>(std::make_unique<ConjugateGradient>(std::move(matrix)));

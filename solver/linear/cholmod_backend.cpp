@@ -169,7 +169,7 @@ Error not_definite(std::size_t column, std::size_t size, int status) {
   return {ErrorCode::kNumericalFailure,
           "the matrix is not positive definite (pivot of column " + std::to_string(column) +
               " of " + std::to_string(size) + ", status " + std::to_string(status) + ")",
-          {"try ", SettingHint{"laplacian", {"intrinsic-delaunay"}}, " or another backend"},
+          {"try another backend"},
           kCholmodName};
 }
 

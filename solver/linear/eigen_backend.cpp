@@ -71,12 +71,12 @@ class EigenAnalysis final : public Analysis {
     const auto pivots = ldlt.vectorD();
     for (Index j = 0; j < lower.size(); ++j) {
       if (ldlt.info() == Eigen::Success && pivots[j] > 0) continue;
-      return Error{
-          ErrorCode::kNumericalFailure,
-          "the matrix is not positive definite (pivot " + rounded_text(pivots[j]) + " in column " +
-              std::to_string(j) + " of " + std::to_string(lower.size()) + ")",
-          {"try ", SettingHint{"laplacian", {"intrinsic-delaunay"}}, " or another backend"},
-          kEigenName};
+      return Error{ErrorCode::kNumericalFailure,
+                   "the matrix is not positive definite (pivot " + rounded_text(pivots[j]) +
+                       " in column " + std::to_string(j) + " of " + std::to_string(lower.size()) +
+                       ")",
+                   {"try another backend"},
+                   kEigenName};
     }
     const Matrix& factor = ldlt.matrixL().nestedExpression();
     ColumnFactorData data;

@@ -71,6 +71,46 @@ TEST(Transport, HasNumbersInModelsOfAnyUnit) {
   }
 }
 
+/// On the plane vectors stay parallel, in whichever frame they are written.
+TEST(Transport, ComponentsOfMergedVerticesAreInTheirFrames) {
+  const Draft plane = jittered_plane(8, 0.2, 3);
+  Draft soup;
+  for (const Face& face : plane.faces) {
+    const Index first = soup.vertex_count();
+    for (const Index v : face) soup.positions.push_back(plane.positions[v]);
+    soup.faces.push_back({first, first + 1, first + 2});
+  }
+  const auto welded = weld(*finish(soup), 0);
+  ASSERT_TRUE(welded);
+  ASSERT_GT(welded->merged, 0);
+  const auto heat = spread_on(std::make_shared<const TriangleMesh>(welded->mesh));
+  const auto found = heat->transport(std::vector<TangentVector>{{0, 1, 0}});
+  const auto frames = heat->frames();
+  ASSERT_TRUE(found && frames);
+  for (std::size_t v = 0; v < frames->size(); ++v) {
+    const TangentFrame& frame = (*frames)[v];
+    const auto [x, y] = found->components[v];
+    EXPECT_NEAR((x * frame.e1 + y * frame.e2 - frames->front().e1).norm(), 0, kParallel) << v;
+  }
+}
+
+TEST(Spread, ByATimeInWhichTheMassDrownsNamesTheTime) {
+  const MeshPtr mesh = finish(jittered_plane(20, 0.2, 3));
+  int refused = 0;
+  for (const double factor : {1e18, 1e20, 1e30, 1e100}) {
+    const auto heat = VectorHeat::build(mesh, {"native", factor, 1});
+    const auto found = heat ? (*heat)->transport(std::vector<TangentVector>{{0, 1, 0}})
+                            : Result<Spread>(heat.error());
+    if (found) continue;
+    ++refused;
+    EXPECT_EQ(found.error().code, ErrorCode::kNumericalFailure);
+    const std::string said = sentence(found.error());
+    EXPECT_NE(said.find("lower time-factor"), std::string::npos) << said;
+    EXPECT_EQ(said.find("laplacian"), std::string::npos) << said;
+  }
+  EXPECT_GT(refused, 0);
+}
+
 TEST(Spread, RefusesTwoDifferentThingsAtOneVertex) {
   const auto heat = spread_on(finish(plane_grid(3, 3, 1, 1)));
   const auto vectors = heat->transport(std::vector<TangentVector>{{5, 1, 0}, {5, 2, 0}});

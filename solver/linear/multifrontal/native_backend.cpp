@@ -174,12 +174,12 @@ class NativeAnalysis final : public Analysis {
                    kNativeName};
     }
     if (failure.failed()) {
-      return Error{
-          ErrorCode::kNumericalFailure,
-          "the matrix is not positive definite (pivot of column " + std::to_string(failure.column) +
-              " of " + std::to_string(matrix->size()) + ")",
-          {"try ", SettingHint{"laplacian", {"intrinsic-delaunay"}}, " or another backend"},
-          kNativeName};
+      return Error{ErrorCode::kNumericalFailure,
+                   "the matrix is not positive definite (pivot of column " +
+                       std::to_string(failure.column) + " of " + std::to_string(matrix->size()) +
+                       ")",
+                   {"try another backend"},
+                   kNativeName};
     }
     return make_direct_factorization(std::make_unique<NativeFactor>(tree_, std::move(factor)));
   } catch (const std::bad_alloc&) {
