@@ -23,15 +23,20 @@ std::string graded(const AccuracyReport& report) {
 
 }  // namespace
 
-AccuracyReport unchecked(MethodKind method, Check check, bool is_reference) {
-  if (is_reference) {
+AccuracyReport unchecked(MethodKind method, Check check, bool in_space) {
+  if (method == MethodKind::kExact) {
+    return unmeasured(method, "this is the most accurate method there is");
+  }
+  if (in_space && is_better(MethodKind::kWavefront, method)) {
     return unmeasured(method,
                       to_text(method) + (method == MethodKind::kHeat
                                              ? " is the only method here"
                                              : " is the reference here, and nothing is better"));
   }
-  if (method == MethodKind::kExact) {
-    return unmeasured(method, "this is the most accurate method there is");
+  if (in_space) {
+    AccuracyReport report = unmeasured(method, to_text(method) + " is near exact");
+    report.advice = {SettingHint{"method", {to_text(MethodKind::kExact)}}, " is exact"};
+    return report;
   }
   if (is_thorough(check)) {
     return unmeasured(method, "nothing more accurate fits a mesh of this size");

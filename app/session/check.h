@@ -56,9 +56,10 @@ struct CheckSettings {
 /// The reference method; the method itself, or none better, where answers are not checked.
 MethodKind reference_in(const CheckSettings& settings, MethodKind checked, Index faces);
 
-/// The report on a method that this check holds against no other one. `is_reference`: in a space
-/// all others are held against it.
-AccuracyReport unchecked(MethodKind method, Check check, bool is_reference);
+/// The report on a method that this check holds against no other one. `in_space`: in one that is no
+/// triangle mesh. Of heat and fast marching there is none to hold them against then, and wavefronts
+/// run over polygons, where there are exact distances as well.
+AccuracyReport unchecked(MethodKind method, Check check, bool in_space);
 
 /// The report on a check that failed.
 AccuracyReport failed_check(MethodKind method, const Error& error);

@@ -165,7 +165,7 @@ Result<AccuracyReport> ModelSolver::compare_with(const CheckedAnswers& answers, 
                                                  const Progress& progress) {
   const MethodKind checked = answers.method.kind();
   if (!is_better(kind, checked)) {
-    return unchecked(checked, check, model_.space && kind == checked);
+    return unchecked(checked, check, model_.space != nullptr);
   }
   const auto solved = solve_reference(kind, answers, triangulated_by, progress);
   if (!solved && solved.error().code == ErrorCode::kCancelled) return solved.error();
@@ -255,8 +255,8 @@ Result<CheckedMethod> ModelSolver::check_method(const ReadyMethod& ready,
     const MethodKind near_exact =
         model_.space ? model_.space->reference_method() : MethodKind::kWavefront;
     if (!is_better(near_exact, by.options.method) && searches) {
-      const bool is_reference = model_.space && near_exact == by.options.method;
-      return SampleCheck{unchecked(by.options.method, settings.against, is_reference), all.size()};
+      const bool in_space = model_.space != nullptr;
+      return SampleCheck{unchecked(by.options.method, settings.against, in_space), all.size()};
     }
     auto results = by.method->solve_each(sets, {.quality = false}, part_of(part, 0.0, 0.2));
     if (!results) return about_model(model_.name, results.error());

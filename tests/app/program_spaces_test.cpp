@@ -5,6 +5,7 @@
 
 #include "geotherm/domains.h"
 #include "solver/mesh/io/format_writers.h"
+#include "tests/app/npy_file.h"
 #include "tests/app/program_fixture.h"
 #include "tests/support/dice.h"
 
@@ -65,6 +66,49 @@ TEST_F(ProgramOnSpaces, WarningsNameMethodsThatThereAre) {
                                "rows.npy", "--time-factor", "3000"});
   EXPECT_NE(rows.err.find("use --method fast-marching"), std::string::npos) << rows.err;
   EXPECT_EQ(rows.err.find("wavefront"), std::string::npos) << rows.err;
+}
+
+TEST_F(ProgramOnSpaces, MistakesOfTheCommandLineNameWhatItTakes) {
+  write_squares();
+  write_corridor();
+  run({"generate", "ball-tets", "--tets", "2000", "-o", "ball.mesh"});
+  const std::pair<std::vector<std::string>, const char*> models[] = {
+      {{"squares.obj", "--domain", "polygons"}, "wavefront"},
+      {{"ball.mesh"}, "fast-marching"},
+      {{"corridor.npy"}, "fast-marching"}};
+  for (const auto& [model, method] : models) {
+    std::vector<std::string> words = {"solve", "-s", "0@0.5"};
+    words.insert(words.end(), model.begin(), model.end());
+    const ProgramRun offset = run_program(folder.path("."), words);
+    EXPECT_EQ(offset.code, 2);
+    EXPECT_NE(offset.err.find(std::string("takes no offsets, and one is 0.5; use --method ") +
+                              method + '\n'),
+              std::string::npos)
+        << offset.err;
+    words.insert(words.end(), {"--method", method});
+    EXPECT_EQ(run_program(folder.path("."), words).code, 0);
+    words = {"solve", "-s", "0", "--constraint", "penalty:1e-300"};
+    words.insert(words.end(), model.begin(), model.end());
+    expect_refused(words, "; raise the penalty, or use --constraint pin-sources\n");
+  }
+}
+
+TEST_F(ProgramOnSpaces, WhatIsBetterThanWavesOverPolygonsIsNamed) {
+  write_squares();
+  const auto said = [&](const std::string& method, const std::string& check) {
+    return run({"solve", "squares.obj", "--domain", "polygons", "-s", "0", "--method", method,
+                check})
+        .out;
+  };
+  for (const char* const check : {"--quiet", "--check"}) {
+    for (const char* const method : {"wavefront", "wavefront-fine"}) {
+      const std::string words = said(method, check);
+      EXPECT_NE(words.find(method + std::string(" is near exact; --method exact is exact\n")),
+                std::string::npos)
+          << words;
+    }
+    EXPECT_NE(said("exact", check).find("the most accurate method there is"), std::string::npos);
+  }
 }
 
 TEST_F(ProgramOnSpaces, APlaceOfASourceThatIsNoVertexOfPolygonsSaysWhichStandsForIt) {
@@ -188,6 +232,21 @@ TEST_F(ProgramOnSpaces, RegionsNameThePointsInCells) {
   ASSERT_EQ(regions.size(), 2U);
   EXPECT_EQ(regions[0]["source"], 7);
   EXPECT_EQ(regions[1]["source"]["weights"].size(), 4U) << "those in cells come last";
+}
+
+/// Two rows of four vertices, in whichever order a curve and a point are given.
+TEST_F(ProgramOnSpaces, RegionsOfPointsComeBeforeThoseOfCurves) {
+  folder.write("strip.obj",
+               "v 0 0 0\nv 1 0 0\nv 2 0 0\nv 3 0 0\nv 0 1 0\nv 1 1 0\nv 2 1 0\nv 3 1 0\n"
+               "f 1 2 5\nf 2 6 5\nf 2 3 6\nf 3 7 6\nf 3 4 7\nf 4 8 7\n");
+  for (const auto& [first, second] : {std::pair("curve:0,4", "7"), std::pair("7", "curve:0,4")}) {
+    const Json said = json({"solve", "strip.obj", "-s", first, "-s", second, "--method", "exact",
+                            "--labels", "-o", "l.npy", "--json", "-"});
+    EXPECT_EQ(said["regions"][0]["source"], 7);
+    EXPECT_EQ(said["regions"][1]["source_edges"], 1);
+    const auto rows = npy_values<double>(bytes_of(folder.path("l.npy")));
+    for (int v = 0; v < 8; ++v) EXPECT_EQ(rows[2 * v + 1], v % 4 < 2 ? 1 : 0) << v;
+  }
 }
 
 TEST_F(ProgramOnSpaces, IsolinesThatCannotBeThereAreSaid) {
