@@ -43,7 +43,9 @@ for suite in "${suites[@]}"; do
     fail "the build $suite has no tests"
 done
 
-if [ -n "$installing" ]; then wait "$installing"; fi
+if [ -n "$installing" ]; then
+  wait "$installing" || fail "what the tests use could not be installed; why is above the builds"
+fi
 
 # One ctest over all of them.
 mkdir -p "$root/build/all"

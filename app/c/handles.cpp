@@ -129,10 +129,15 @@ const char* keep_text(std::string text) {
   return last_text.c_str();
 }
 
-Watched::Watched(const geotherm_watch* watch) : outer_(std::exchange(innermost_call, this)) {
-  if (watch == nullptr) return;
-  if (watch->interruptible == 0 && watch->progress == nullptr) return;
-  progress_ = [this, from = interrupts.load(), call = watch->progress, data = watch->data](
+Watched::Watched(const geotherm_watch* watch) : outer_(innermost_call) {
+  const bool watched =
+      watch != nullptr && (watch->interruptible != 0 || watch->progress != nullptr);
+  if (watched) watch_by(*watch);
+  innermost_call = this;  // last: where a constructor throws, no destructor would take it back
+}
+
+void Watched::watch_by(const geotherm_watch& watch) {
+  progress_ = [this, from = interrupts.load(), call = watch.progress, data = watch.data](
                   std::string_view stage, double share) {
     if (interruptible_ && interrupts.load() != from) return false;
     if (call == nullptr) return true;
@@ -140,7 +145,7 @@ Watched::Watched(const geotherm_watch* watch) : outer_(std::exchange(innermost_c
     return call(data, std::string(stage).c_str(), share) == 0;
   };
   // The counting begins last: where a constructor throws, no destructor would end it.
-  interruptible_ = watch->interruptible != 0 && begin_counting();
+  interruptible_ = watch.interruptible != 0 && begin_counting();
 }
 
 Watched::~Watched() {

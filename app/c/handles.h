@@ -179,6 +179,8 @@ class Watched {
   void holds(const Solver* solver) const { held_ = solver; }
 
  private:
+  void watch_by(const geotherm_watch& watch);
+
   const Watched* const outer_;
   mutable std::atomic<const Solver*> held_ = nullptr;
   bool interruptible_ = false;

@@ -103,7 +103,7 @@ Result<Model> model_of(TetMesh volume) {
     return Error{
         ErrorCode::kBadInput,
         "the volume of " + counted((*space)->cell_count(), "tet", "tets") + " has no border",
-        {"give tets of four different vertices each"}};
+        {"give tets whose outer faces belong to one tet each"}};
   }
   const auto positions = (*space)->tets()->positions();
   auto mesh = TriangleMesh::build({positions.begin(), positions.end()}, (*space)->border().faces);

@@ -64,7 +64,13 @@ Session::Session(SessionHooks hooks) : state_(std::make_unique<State>(std::move(
   state_->save_worker.emplace(state_->hooks.wake);
 }
 
-Session::~Session() = default;
+Session::~Session() {
+  // Where a window ends by an error, files that were asked for are written all the same.
+  for (State& s = *state_; !s.unwritten.empty();) {
+    s.save_worker->wait();
+    s.take();
+  }
+}
 
 void Session::State::note(LogLine::Kind kind, std::string text, Hint hint) {
   if (log.size() >= kMaxLogLines) log.erase(log.begin(), log.begin() + kMaxLogLines / 4);
@@ -118,6 +124,9 @@ Result<void> Session::State::perform(const Command& command, const Session& sess
                    "there is no colour map '" + one_line(set->value) + "'",
                    {"there are " + joined(maps)}};
     }
+  }
+  if (const auto* open = std::get_if<command::Open>(&command)) {
+    if (auto written = check_written(open->model); !written) return written;
   }
   auto next = app::apply(state, command);
   if (!next) return next.error();
@@ -196,6 +205,7 @@ Result<void> Session::State::check_picked(const ViewerState& next) const {
 }
 
 Result<void> Session::State::submit(const Command& command, const Session& session, Giver giver) {
+  if (quits && std::holds_alternative<command::Quit>(command)) return {};  // it waits for files
   const bool saves = saved_path(command) != nullptr;
   if (saves && !hooks.writes_files) {
     note(LogLine::Kind::kNote, "not written: " + to_text(command));
@@ -299,7 +309,7 @@ Result<void> Session::finish() {
     if (s.save_worker) s.save_worker->wait();
     s.take();
     s.pump(*this);
-  } while (s.works() || (!s.script.empty() && !s.quits));
+  } while (s.works() || !s.unwritten.empty() || (!s.script.empty() && !s.quits));
   const std::optional<Error> error = std::exchange(s.first_error, std::nullopt);
   return error ? Result<void>(*error) : Result<void>();
 }

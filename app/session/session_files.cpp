@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What a session writes.
+#include <algorithm>
 #include <filesystem>
 #include <memory>
 #include <new>
@@ -148,8 +149,17 @@ Outputs outputs_beside(const ViewerState& state) {
   return outputs;
 }
 
+Result<void> Session::State::check_written(const std::string& path) const {
+  const auto is_there = [full = full_path(path)](const Save& save) {
+    return full_path(*saved_path(save.command)) == full;
+  };
+  if (std::ranges::none_of(unwritten, is_there)) return {};
+  return Error{ErrorCode::kBadInput, one_line(path) + " is still being written", {"wait for it"}};
+}
+
 Result<void> Session::State::check_place(const Command& command, Giver giver) const {
   if (auto named = check_saved_name(command); !named) return named;
+  if (auto free = check_written(*saved_path(command)); !free) return free;
   // A user has been asked, or knows. Scripts may replace what scripts of this run have written.
   if (giver == Giver::kUser || saved_by_scripts.contains(full_path(*saved_path(command))))
     return {};
@@ -239,10 +249,13 @@ void Session::State::fail_save(const Save& save, Error error) {
   commands.drop_last(save.command);
   if (error.code == ErrorCode::kCancelled) {
     error = about(one_line(*saved_path(save.command)), error);
-  } else {
-    quits = false;
+  } else if (std::exchange(quits, false)) {
+    commands.drop_last(command::Quit{});
   }
-  if (!first_error) first_error = save.at ? about(save.at->text(), error) : error;
+  // What a user has saved beside a script does not end it.
+  if (!first_error && (save.at || script.empty())) {
+    first_error = save.at ? about(save.at->text(), error) : error;
+  }
   note(error);
 }
 

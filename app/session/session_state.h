@@ -109,6 +109,7 @@ struct Session::State {
   // session_files.cpp: what is written.
   Result<void> save(const Command& command, const Session& session, Giver giver);
   Result<void> check_place(const Command& command, Giver giver) const;
+  Result<void> check_written(const std::string& path) const;
   void start_save();
   void take_saved(const Result<void>& done);
   void stop_saves();

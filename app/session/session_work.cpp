@@ -67,8 +67,7 @@ ExploreRequest Session::State::wanted() const {
 
 bool Session::State::works() {
   const std::lock_guard lock(inbox_mutex);
-  return !inbox.empty() || compare.running || !unwritten.empty() ||
-         (worker && worker->status().busy);
+  return !inbox.empty() || compare.running || (worker && worker->status().busy);
 }
 
 /// Whether what was asked for last is shown, and only its check or a centre is missing.

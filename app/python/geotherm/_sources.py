@@ -184,7 +184,7 @@ class Taken:
             if before:
                 raise self._wrong(
                     f"has the text {self._texts[-1]!r} before what is no text",
-                    "give texts alone, or numbers alone",
+                    "give the texts last",
                 )
             self._starts.append(self._count)
         if len(self._starts) == 1 and not self._texts:

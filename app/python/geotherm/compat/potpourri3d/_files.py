@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import re
 from typing import Any
 
 import numpy as np
@@ -25,18 +26,16 @@ def read_polygon_mesh(filename: str) -> tuple[AnyArray, list[list[int]]]:
         raise NotImplementedError("the polygons of a file are read from .obj")
     vertices = np.array(read(filename, domain="polygons").vertices)  # which looks at the faces, too
     faces: list[list[int]] = []
-    seen, begun = 0, ""
-    with open(filename, encoding="utf-8", errors="replace") as lines:
-        for line in lines:
-            line, begun = begun + line.rstrip("\n"), ""
-            words = line.split("#")[0].split()
-            if words[:1] == ["v"]:
-                seen += 1
-            elif words[:1] == ["f"] and line.endswith("\\") and "#" not in line:
-                begun = line[:-1] + " "  # the next line goes on with the face
-            elif words[:1] == ["f"]:
-                corners = [int(word.split("/")[0]) for word in words[1:]]
-                faces.append([v - 1 if v > 0 else seen + v for v in corners])
+    seen = 0
+    with open(filename, encoding="utf-8", errors="replace") as file:
+        joined = re.sub(r"(?m)^([^#\n]*)\\[ \t\r]*(?:\n|\Z)", r"\1 ", file.read())
+    for line in joined.split("\n"):
+        words = line.split("#")[0].split()
+        if words[:1] == ["v"]:
+            seen += 1
+        elif words[:1] == ["f"]:
+            corners = [int(word.split("/")[0]) for word in words[1:]]
+            faces.append([v - 1 if v > 0 else seen + v for v in corners])
     return vertices, faces
 
 

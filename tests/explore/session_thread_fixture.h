@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <atomic>
+#include <mutex>
+
+#include "tests/explore/session_fixture.h"
+
+namespace geotherm::app {
+
+/// A session with threads for its work, beside one without.
+class SessionThread : public SessionFixture {
+ protected:
+  SessionThread()
+      : threaded([this] {
+          SessionHooks hooks;
+          hooks.wake = [this] {
+            ++wakes;
+            const std::lock_guard waits(gate);
+          };
+          return hooks;
+        }()) {}
+
+  std::atomic<int> wakes = 0;
+  std::mutex gate;  ///< while a test holds it, workers wait where a stage begins
+  Session threaded;
+};
+
+}  // namespace geotherm::app
