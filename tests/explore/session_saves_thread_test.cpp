@@ -80,7 +80,7 @@ TEST_F(SessionThreadSaves, ThatFailAreSeenBeforeTheEnd) {
 
 TEST_F(SessionThreadSaves, OfAUserThatFailEndNoScript) {
   begin();
-  write(folder() + "s.geotherm", "set time-factor 2\n");
+  write(folder() + "s.geotherm", "time-factor 2\n");
   std::unique_lock held(gate);
   ASSERT_TRUE(threaded.submit(command::SaveDistances{too_long()}));
   ASSERT_TRUE(threaded.submit(command::Run{folder() + "s.geotherm"}));

@@ -28,7 +28,7 @@ def read_polygon_mesh(filename: str) -> tuple[AnyArray, list[list[int]]]:
     faces: list[list[int]] = []
     seen = 0
     with open(filename, encoding="utf-8", errors="replace") as file:
-        joined = re.sub(r"(?m)^([^#\n]*)\\[ \t\r]*(?:\n|\Z)", r"\1 ", file.read())
+        joined = re.sub(r"(?m)^([^#\n]*)\\\r?\n", r"\1 ", file.read())
     for line in joined.split("\n"):
         words = line.split("#")[0].split()
         if words[:1] == ["v"]:
