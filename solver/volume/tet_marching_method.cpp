@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "solver/volume/tet_marching_method.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <queue>
@@ -12,6 +13,7 @@
 #include "solver/geometry/cell_mesh.h"
 #include "solver/method/marching_method.h"
 #include "solver/volume/clean_tets.h"
+#include "solver/volume/reentrant_lines.h"
 #include "solver/volume/tet_update.h"
 
 namespace geotherm {
@@ -25,12 +27,18 @@ struct MarchedTets {
   std::vector<Index> original;       ///< their numbers in the mesh, ascending
   CellTable around;                  ///< the clean tets around each vertex
   std::vector<double> longest_edge;  ///< V
+  ReentrantLines reentrant;
 };
 
 MarchedTets marched_tets(std::shared_ptr<const TetMesh> mesh, CleanTets clean,
                          double straight_reach) {
-  MarchedTets out{
-      std::move(mesh), straight_reach, std::move(clean.tets), std::move(clean.original), {}, {}};
+  MarchedTets out{std::move(mesh),
+                  straight_reach,
+                  std::move(clean.tets),
+                  std::move(clean.original),
+                  {},
+                  {},
+                  {}};
   out.around = CellTable(out.mesh->vertex_count(), static_cast<Index>(out.tets.size()), 1,
                          [&out](Index t) -> const Tet& { return out.tets[t]; });
   const auto positions = out.mesh->positions();
@@ -43,12 +51,16 @@ MarchedTets marched_tets(std::shared_ptr<const TetMesh> mesh, CleanTets clean,
       }
     }
   }
+  out.reentrant = reentrant_lines(positions, out.tets, out.around);
   return out;
 }
 
 /// One query. Two kinds of news spread, in the order of distance: that a vertex sees a source, and
 /// that its distance became less. A vertex near a ridge, where sources meet, sees those behind it
-/// as well: the lines to vertices before the ridge may cross faces with corners behind it.
+/// as well: the lines to vertices before the ridge may cross faces with corners behind it. Round a
+/// straight re-entrant edge of the border ways bend: with the part before it turned into the plane
+/// of the part behind it they are straight lines, too, so that the edge is a source of its own
+/// behind which vertices are seen.
 class TetMarch {
  public:
   explicit TetMarch(const MarchedTets& tets) : m_(tets) {
@@ -68,8 +80,7 @@ class TetMarch {
     if (m_.around.at(v).empty()) {
       return Error{ErrorCode::kBadInput, "source vertex " + std::to_string(v) + " is in no tet"};
     }
-    sources_.push_back({at(v), offset});
-    see(v, static_cast<Index>(sources_.size()) - 1);
+    see(v, add_source(at(v), offset));
     return {};
   }
 
@@ -82,8 +93,8 @@ class TetMarch {
     const Tet& tet = m_.mesh->tets()[point.cell];
     Vec3 place = Vec3::Zero();
     for (std::size_t k = 0; k < 4; ++k) place += point.weights[k] * at(tet[k]);
-    sources_.push_back({place, 0});
-    for (const Index v : tet) see(v, static_cast<Index>(sources_.size()) - 1);
+    const Index source = add_source(place, 0);
+    for (const Index v : tet) see(v, source);
     return {};
   }
 
@@ -94,7 +105,7 @@ class TetMarch {
     while (!queue_.empty()) {
       const News next = queue_.top();
       queue_.pop();
-      const double slack = next.source == kNoIndex ? 0 : slack_at(next.vertex);
+      const double slack = next.source == kNoIndex ? 0 : slack_at(next.vertex, next.source);
       if (next.distance > out_.distances[next.vertex] + slack) continue;  // nearer meanwhile
       if (++visits % kReported == 0 &&
           !report(progress, "marching", std::min(1.0, 0.5 * double(visits) / double(vertices)))) {
@@ -107,13 +118,22 @@ class TetMarch {
       }
       spread(next);
     }
+    for (Index& source : out_.nearest) {
+      if (source != kNoIndex) source = sources_[source].root;
+    }
     return std::move(out_);
   }
 
  private:
   struct Source {
-    Vec3 place;
+    Vec3 place;  ///< of an edge: the point on it that is nearest to what is before it
     double offset;
+    Index parent;                    ///< the source before the edge
+    Index root;                      ///< the source that was given
+    Index line = kNoIndex;           ///< that ways bend round
+    Vec3 direction = Vec3::Zero();   ///< of the line
+    double before = 0;               ///< how far what is before lies from the line
+    std::vector<Index> behind = {};  ///< the edges that it sees, as sources
   };
   struct News {
     double distance;
@@ -129,15 +149,42 @@ class TetMarch {
   };
   /// Sources that a vertex sees are noted up to this many; of more, as at the centre of a ball
   /// whose border is the source, only those count that are nearer than all before.
-  static constexpr Index kMaxSights = 8;
+  static constexpr Index kMaxSights = 16;
 
   const Vec3& at(Index v) const { return m_.mesh->positions()[v]; }
 
+  Index add_source(const Vec3& place, double offset) {
+    const auto number = static_cast<Index>(sources_.size());
+    sources_.push_back({place, offset, number, number});
+    ++given_;
+    return number;
+  }
+
   /// So much farther than the nearest source may be one that a vertex sees.
-  double slack_at(Index v) const { return sources_.size() > 1 ? 2 * m_.longest_edge[v] : 0; }
+  double slack_at(Index v, Index source) const {
+    constexpr Index kFew = 8;
+    constexpr double kOfEdge = 2, kOfMany = 4;
+    if (sources_.size() == 1) return 0;
+    if (sources_[source].line != kNoIndex) return kOfEdge * m_.longest_edge[v];
+    return given_ > kFew ? kOfMany * m_.longest_edge[v] : kUnreached;
+  }
 
   double line_from(Index source, Index v) const {
-    return sources_[source].offset + (sources_[source].place - at(v)).norm();
+    const Source& s = sources_[source];
+    const Vec3 way = at(v) - s.place;
+    if (s.line == kNoIndex) return s.offset + way.norm();
+    const double along = way.dot(s.direction);
+    return s.offset + std::hypot(s.before + (way - along * s.direction).norm(), along);
+  }
+
+  /// Where the straight line from v to a source goes: to the source, or to where it bends.
+  Vec3 target(Index source, Index v) const {
+    const Source& s = sources_[source];
+    if (s.line == kNoIndex) return s.place;
+    const Vec3 way = at(v) - s.place;
+    const double along = way.dot(s.direction);
+    const double behind = (way - along * s.direction).norm();
+    return s.place + along * s.before / (s.before + behind) * s.direction;
   }
 
   bool sees(Index v, Index source) const {
@@ -151,15 +198,45 @@ class TetMarch {
   void see(Index v, Index source) {
     const double line = line_from(source, v);
     double& held = out_.distances[v];
-    if (line > held + slack_at(v)) return;
+    if (line > held + slack_at(v, source)) return;
     if (sights_of_[v] >= kMaxSights && line >= held) return;
     ++sights_of_[v];
     sights_.push_back({source, first_sight_[v]});
     first_sight_[v] = static_cast<Index>(sights_.size()) - 1;
     queue_.push({line, v, source});
-    if (line > held || (line == held && straight_[v] != 0)) return;
-    straight_[v] = 1;
-    set(v, line, source);
+    const bool is_nearer = line < held || (line == held && straight_[v] == 0);
+    if (is_nearer) {
+      straight_[v] = 1;
+      set(v, line, source);
+    }
+    if (line > out_.distances[v]) return;
+    for (const auto& end : m_.reentrant.at(v)) see_round(v, source, end.line);
+  }
+
+  /// The vertex on this re-entrant line sees the source: what is behind it is seen round the line.
+  void see_round(Index v, Index source, Index number) {
+    constexpr double kRoundOff = 1e-9;
+    const ReentrantLines::Line& line = m_.reentrant.lines[number];
+    for (const Index known : sources_[source].behind) {
+      if (sources_[known].line != number) continue;
+      if (!sees(v, known)) see(v, known);
+      return;
+    }
+    const Source& s = sources_[source];
+    const bool is_edge = s.line != kNoIndex;
+    // Round two lines ways are straight in one plane where these are parallel.
+    if (is_edge && (s.line == number || s.direction.cross(line.direction).norm() > kRoundOff)) {
+      return;
+    }
+    const Vec3 way = s.place - line.place;
+    const double along = way.dot(line.direction);
+    const double off = (way - along * line.direction).norm();
+    if (!(off > kRoundOff * m_.longest_edge[v])) return;
+    const auto bent = static_cast<Index>(sources_.size());
+    sources_.push_back({line.place + along * line.direction, s.offset, source, s.root, number,
+                        line.direction, s.before + off});
+    sources_[source].behind.push_back(bent);
+    see(v, bent);
   }
 
   void set(Index v, double distance, Index source) {
@@ -185,8 +262,9 @@ class TetMarch {
   }
 
   void offer_line(Index v, const Face& face, Index source) {
-    const Vec3 to_source = sources_[source].place - at(v);
-    if (!(to_source.norm() <= m_.straight_reach) || sees(v, source)) return;
+    if (sees(v, source)) return;
+    const Vec3 to_source = target(source, v) - at(v);
+    if (!(to_source.norm() <= m_.straight_reach)) return;
     const FaceCrossing crossing =
         cross_face({at(face[0]) - at(v), at(face[1]) - at(v), at(face[2]) - at(v)}, to_source);
     if (!crossing.crosses) return;
@@ -194,6 +272,11 @@ class TetMarch {
       if (crossing.weights[i] > 0 && !sees(face[i], source)) return;
     }
     see(v, source);
+  }
+
+  /// Where an edge begins to hide its source the fronts of both touch each other smoothly.
+  bool is_one_front(Index a, Index b) const {
+    return a == b || (a != kNoIndex && (sources_[a].parent == b || sources_[b].parent == a));
   }
 
   /// From the corners that have the same nearest source alone: distance has a ridge where sources
@@ -205,21 +288,22 @@ class TetMarch {
     if (straight_[v] != 0 && out_.nearest[v] == source) return;
     std::array<KnownCorner, 3> known;
     for (std::size_t i = 0; i < 3; ++i) {
-      const bool same = out_.nearest[face[i]] == source;
+      const bool same = is_one_front(out_.nearest[face[i]], source);
       known[i] = {at(face[i]) - at(v), same ? out_.distances[face[i]] : kUnreached};
     }
-    const double distance = std::max(updated_distance(known), line_from(source, v));
+    const double distance = std::max(updated_distance(known), line_from(sources_[source].root, v));
     if (!(distance < out_.distances[v] * (1 - kRoundOff))) return;
     straight_[v] = 0;
     set(v, distance, source);
   }
 
   const MarchedTets& m_;
-  std::vector<Source> sources_;
+  std::vector<Source> sources_;  ///< those that were given, then edges
+  Index given_ = 0;
   std::vector<Index> first_sight_;  ///< V: into sights_, a list for each vertex
   std::vector<Sight> sights_;
   std::vector<Index> sights_of_;        ///< V: how many
-  std::vector<std::uint8_t> straight_;  ///< V: the distance is the line to `nearest`
+  std::vector<std::uint8_t> straight_;  ///< V: whether the distance is a line from `nearest`
   Marched out_;
   std::priority_queue<News> queue_;
 };
