@@ -10,24 +10,32 @@
 namespace geotherm {
 namespace {
 
-/// The angle of a tet at its edge from a to b, between the sides to c and d.
-double angle_at_edge(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
-  const Vec3 along = (b - a).normalized();
-  const Vec3 to_c = c - a - (c - a).dot(along) * along, to_d = d - a - (d - a).dot(along) * along;
-  return std::atan2(to_c.cross(to_d).norm(), to_c.dot(to_d));
-}
+/// What tets fill around an edge.
+struct Filled {
+  Index to;
+  double angle = 0;
+  Vec3 inward = Vec3::Zero();  ///< the sum of all directions into the tets
+  Index rim = 0;  ///< exclusive or of their other corners: 0 inside, where each has two
+
+  /// A tet at the edge from a to b, between the sides to c and d.
+  void add(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
+    const Vec3 along = (b - a).normalized();
+    const Vec3 to_c = (c - a - (c - a).dot(along) * along).normalized();
+    const Vec3 to_d = (d - a - (d - a).dot(along) * along).normalized();
+    const double between = std::atan2(to_c.cross(to_d).norm(), to_c.dot(to_d));
+    angle += between;
+    inward += 2 * std::sin(between / 2) * (to_c + to_d).normalized();
+  }
+};
 
 struct ReentrantEdge {
   Index from, to;
+  Vec3 inward;
 };
 
 void append_edges_at(Index v, std::span<const Vec3> at, std::span<const Tet> tets,
                      const CellTable& around, std::vector<ReentrantEdge>& edges) {
   constexpr double kBends = 0.35, kRoundOff = 1e-3, kPi = std::numbers::pi;
-  struct Filled {
-    Index to;
-    double angle;
-  };
   std::vector<Filled> filled;
   for (const Index t : around.at(v)) {
     const Tet& tet = tets[static_cast<std::size_t>(t)];
@@ -38,18 +46,16 @@ void append_edges_at(Index v, std::span<const Vec3> at, std::span<const Tet> tet
       for (const Index u : tet) {
         if (u != v && u != w) others[count++] = u;
       }
-      const double angle = angle_at_edge(at[v], at[w], at[others[0]], at[others[1]]);
-      const auto known =
+      auto known =
           std::find_if(filled.begin(), filled.end(), [w](const Filled& f) { return f.to == w; });
-      if (known == filled.end()) {
-        filled.push_back({w, angle});
-      } else {
-        known->angle += angle;
-      }
+      if (known == filled.end()) known = filled.insert(known, {w});
+      known->rim ^= others[0] ^ others[1];
+      known->add(at[v], at[w], at[others[0]], at[others[1]]);
     }
   }
   for (const Filled& f : filled) {
-    if (f.angle > kPi + kBends && f.angle < 2 * kPi - kRoundOff) edges.push_back({v, f.to});
+    if (f.rim != 0 && f.angle > kPi + kBends && f.angle < 2 * kPi - kRoundOff)
+      edges.push_back({v, f.to, f.inward.normalized()});
   }
 }
 
@@ -94,7 +100,7 @@ ReentrantLines reentrant_lines(std::span<const Vec3> positions, std::span<const 
     const Index one = first_of(edge);
     if (line_of[one] == kNoIndex) {
       line_of[one] = static_cast<Index>(out.lines.size());
-      out.lines.push_back({positions[edges[one].from], directions[one]});
+      out.lines.push_back({positions[edges[one].from], directions[one], edges[one].inward});
     }
     out.vertices.push_back({vertex, line_of[one]});
   }

@@ -11,10 +11,11 @@ namespace geotherm {
 
 /// Edges of a volume's border round which shortest ways bend: the volume fills more than half of
 /// what is around them, by 20 degrees and more. Edges one after the other on a straight line are
-/// one line. An edge that all of its surroundings are filled of is inside.
+/// one line.
 struct ReentrantLines {
   struct Line {
-    Vec3 place, direction;  ///< the direction has length 1
+    Vec3 place, direction;
+    Vec3 inward;  ///< across the line, half-way between the two sides; both have length 1
   };
   struct End {
     Index vertex, line;

@@ -261,6 +261,24 @@ class TetMarch {
     }
   }
 
+  /// Whether the line from v passes on the inside of all edges that the source sees, and a corner
+  /// beside it sees the source round one of these.
+  bool passes_edges(Index corner, Index v, Index source) const {
+    const Source& s = sources_[source];
+    if (s.line != kNoIndex) return false;
+    bool is_round = false;
+    for (const Index edge : s.behind) {
+      const Source& e = sources_[edge];
+      const Vec3& inward = m_.reentrant.lines[e.line].inward;
+      const Vec3 across = e.direction.cross(inward), from = s.place - e.place, to = at(v) - e.place;
+      const double before = from.dot(across), behind = to.dot(across);
+      if (before * behind >= 0) continue;
+      if (!((before * to - behind * from).dot(inward) * before > 0)) return false;
+      is_round = is_round || sees(corner, edge);
+    }
+    return is_round;
+  }
+
   void offer_line(Index v, const Face& face, Index source) {
     if (sees(v, source)) return;
     const Vec3 to_source = target(source, v) - at(v);
@@ -268,9 +286,16 @@ class TetMarch {
     const FaceCrossing crossing =
         cross_face({at(face[0]) - at(v), at(face[1]) - at(v), at(face[2]) - at(v)}, to_source);
     if (!crossing.crosses) return;
+    bool one_sees = false;  // on the inside of the edges that hide the source from others
     for (std::size_t i = 0; i < 3; ++i) {
-      if (crossing.weights[i] > 0 && !sees(face[i], source)) return;
+      if (!(crossing.weights[i] > 0)) continue;
+      if (sees(face[i], source)) {
+        one_sees = true;
+      } else if (!passes_edges(face[i], v, source)) {
+        return;
+      }
     }
+    if (!one_sees) return;
     see(v, source);
   }
 
