@@ -37,22 +37,26 @@ void append_edges_at(Index v, std::span<const Vec3> at, std::span<const Tet> tet
                      const CellTable& around, std::vector<ReentrantEdge>& edges) {
   constexpr double kBends = 0.35, kRoundOff = 1e-3, kPi = std::numbers::pi;
   std::vector<Filled> filled;
-  for (const Index t : around.at(v)) {
-    const Tet& tet = tets[static_cast<std::size_t>(t)];
-    for (const Index w : tet) {
-      if (w <= v) continue;
-      std::array<Index, 2> others{};
-      std::size_t count = 0;
-      for (const Index u : tet) {
-        if (u != v && u != w) others[count++] = u;
+  const auto each_edge = [&](const auto& body) {
+    for (const Index t : around.at(v)) {
+      const Tet& tet = tets[static_cast<std::size_t>(t)];
+      for (const Index w : tet) {
+        if (w <= v) continue;
+        std::array<Index, 2> others{};
+        std::size_t count = 0;
+        for (const Index u : tet) {
+          if (u != v && u != w) others[count++] = u;
+        }
+        auto known = std::ranges::find(filled, w, &Filled::to);
+        if (known == filled.end()) known = filled.insert(known, {w});
+        body(*known, others);
       }
-      auto known =
-          std::find_if(filled.begin(), filled.end(), [w](const Filled& f) { return f.to == w; });
-      if (known == filled.end()) known = filled.insert(known, {w});
-      known->rim ^= others[0] ^ others[1];
-      known->add(at[v], at[w], at[others[0]], at[others[1]]);
     }
-  }
+  };
+  each_edge([](Filled& f, const auto& others) { f.rim ^= others[0] ^ others[1]; });
+  each_edge([&](Filled& f, const auto& others) {
+    if (f.rim != 0) f.add(at[v], at[f.to], at[others[0]], at[others[1]]);
+  });
   for (const Filled& f : filled) {
     if (f.rim != 0 && f.angle > kPi + kBends && f.angle < 2 * kPi - kRoundOff)
       edges.push_back({v, f.to, f.inward.normalized()});

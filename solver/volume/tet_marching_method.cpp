@@ -14,6 +14,7 @@
 #include "solver/method/marching_method.h"
 #include "solver/volume/clean_tets.h"
 #include "solver/volume/reentrant_lines.h"
+#include "solver/volume/tet_source.h"
 #include "solver/volume/tet_update.h"
 
 namespace geotherm {
@@ -125,16 +126,6 @@ class TetMarch {
   }
 
  private:
-  struct Source {
-    Vec3 place;  ///< of an edge: the point on it that is nearest to what is before it
-    double offset;
-    Index parent;                    ///< the source before the edge
-    Index root;                      ///< the source that was given
-    Index line = kNoIndex;           ///< that ways bend round
-    Vec3 direction = Vec3::Zero();   ///< of the line
-    double before = 0;               ///< how far what is before lies from the line
-    std::vector<Index> behind = {};  ///< the edges that it sees, as sources
-  };
   struct News {
     double distance;
     Index vertex;
@@ -169,23 +160,7 @@ class TetMarch {
     return given_ > kFew ? kOfMany * m_.longest_edge[v] : kUnreached;
   }
 
-  double line_from(Index source, Index v) const {
-    const Source& s = sources_[source];
-    const Vec3 way = at(v) - s.place;
-    if (s.line == kNoIndex) return s.offset + way.norm();
-    const double along = way.dot(s.direction);
-    return s.offset + std::hypot(s.before + (way - along * s.direction).norm(), along);
-  }
-
-  /// Where the straight line from v to a source goes: to the source, or to where it bends.
-  Vec3 target(Index source, Index v) const {
-    const Source& s = sources_[source];
-    if (s.line == kNoIndex) return s.place;
-    const Vec3 way = at(v) - s.place;
-    const double along = way.dot(s.direction);
-    const double behind = (way - along * s.direction).norm();
-    return s.place + along * s.before / (s.before + behind) * s.direction;
-  }
+  double line_from(Index source, Index v) const { return sources_[source].line_to(at(v)); }
 
   bool sees(Index v, Index source) const {
     for (Index i = first_sight_[v]; i != kNoIndex; i = sights_[i].next) {
@@ -222,7 +197,7 @@ class TetMarch {
       if (!sees(v, known)) see(v, known);
       return;
     }
-    const Source& s = sources_[source];
+    const TetSource& s = sources_[source];
     const bool is_edge = s.line != kNoIndex;
     // Round two lines ways are straight in one plane where these are parallel.
     if (is_edge && (s.line == number || s.direction.cross(line.direction).norm() > kRoundOff)) {
@@ -264,11 +239,15 @@ class TetMarch {
   /// Whether the line from v passes on the inside of all edges that the source sees, and a corner
   /// beside it sees the source round one of these.
   bool passes_edges(Index corner, Index v, Index source) const {
-    const Source& s = sources_[source];
-    if (s.line != kNoIndex) return false;
+    const TetSource& s = sources_[source];
     bool is_round = false;
+    for (Index i = first_sight_[corner]; i != kNoIndex && !is_round; i = sights_[i].next) {
+      is_round = sights_[i].source != source && sources_[sights_[i].source].parent == source;
+    }
+    if (s.line != kNoIndex || !is_round) return false;
+    is_round = false;
     for (const Index edge : s.behind) {
-      const Source& e = sources_[edge];
+      const TetSource& e = sources_[edge];
       const Vec3& inward = m_.reentrant.lines[e.line].inward;
       const Vec3 across = e.direction.cross(inward), from = s.place - e.place, to = at(v) - e.place;
       const double before = from.dot(across), behind = to.dot(across);
@@ -281,7 +260,7 @@ class TetMarch {
 
   void offer_line(Index v, const Face& face, Index source) {
     if (sees(v, source)) return;
-    const Vec3 to_source = target(source, v) - at(v);
+    const Vec3 to_source = sources_[source].target(at(v)) - at(v);
     if (!(to_source.norm() <= m_.straight_reach)) return;
     const FaceCrossing crossing =
         cross_face({at(face[0]) - at(v), at(face[1]) - at(v), at(face[2]) - at(v)}, to_source);
@@ -323,7 +302,7 @@ class TetMarch {
   }
 
   const MarchedTets& m_;
-  std::vector<Source> sources_;  ///< those that were given, then edges
+  std::vector<TetSource> sources_;  ///< those that were given, then edges
   Index given_ = 0;
   std::vector<Index> first_sight_;  ///< V: into sights_, a list for each vertex
   std::vector<Sight> sights_;
