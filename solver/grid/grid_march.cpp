@@ -24,7 +24,9 @@ GridMarch::GridMarch(const GridLattice& lattice, double reach)
   nearest_.assign(count, kNoIndex);
   state_.assign(count, 0);
   if (lattice.has_one_speed()) return;
-  for (const double speed : grid_.speeds) fastest_ = std::min(fastest_, 1 / speed);
+  for (const double speed : grid_.speeds) {
+    if (speed > 0) fastest_ = std::min(fastest_, 1 / speed);
+  }
 }
 
 void GridMarch::merge(Found& found) {

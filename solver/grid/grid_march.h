@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <cstdint>
 #include <queue>
 #include <span>
@@ -20,6 +22,7 @@ struct GridSource {
   Index number;  ///< of the source in its set
 };
 
+/// Where a sample is, in samples.
 GridPlace place_in(const GridLattice& lattice, Index sample);
 
 /// body(sample) for those at most one step before this one and `behind` steps behind it along each
@@ -55,8 +58,8 @@ class GridMarch {
   /// Samples farther than `reach` are not asked for.
   GridMarch(const GridLattice& lattice, double reach);
 
-  /// One front. What is farther than `found`, where it is not null, by more than the width of a
-  /// cell is left out. False: `report` said so.
+  /// One front. What is farther than `found`, where it is not null, by more than the widths
+  /// of two cells is left out. False: `report` said so.
   template <class Report>
   bool march(std::span<const GridSource> sources, const Found* found, const Report& report);
   /// Puts the front's samples into `found` where they are nearer, and forgets them. Of sources as

@@ -38,32 +38,29 @@ Result<GridSource> point_source(const GridLattice& lattice, const CellPoint& poi
   return GridSource{at, 0, cell.slowness, point.cell, true, 0};
 }
 
-/// Sources that are marched together: up to some number each alone, so that distances are those of
-/// the nearest; of more, as of a curve or of the rim, those that lie side by side are one front.
+/// Sources that are marched together: many that lie side by side, as of a curve or of the rim, are
+/// one front. All others are alone, so that distances are those of the nearest.
 std::vector<std::vector<GridSource>> fronts_of(const GridLattice& lattice,
                                                const std::vector<GridSource>& sources) {
-  constexpr std::size_t kMaxAlone = 64;
+  constexpr std::size_t kMaxAlone = 8;
   std::vector<std::vector<GridSource>> fronts;
-  if (sources.size() <= kMaxAlone) {
-    for (const GridSource& source : sources) fronts.push_back({source});
-  } else {
-    std::unordered_multimap<Index, Index> left;  // by sample
-    for (const GridSource& source : sources) left.emplace(source.lowest, source.number);
-    for (const GridSource& first : sources) {
-      std::vector<Index> next;
-      const auto take = [&](Index sample) {
-        const auto [begin, end] = left.equal_range(sample);
-        for (auto i = begin; i != end; ++i) next.push_back(i->second);
-        left.erase(begin, end);
-      };
-      take(first.lowest);
-      if (next.empty()) continue;
-      for (std::size_t i = 0; i < next.size(); ++i) {
-        for_samples_around(lattice, sources[next[i]].lowest, 1, take);
-      }
-      std::sort(next.begin(), next.end());
-      fronts.emplace_back();
-      for (const Index i : next) fronts.back().push_back(sources[i]);
+  std::unordered_multimap<Index, Index> left;  // by sample
+  for (const GridSource& source : sources) left.emplace(source.lowest, source.number);
+  for (const GridSource& first : sources) {
+    std::vector<Index> beside;
+    const auto take = [&](Index sample) {
+      const auto [begin, end] = left.equal_range(sample);
+      for (auto i = begin; i != end; ++i) beside.push_back(i->second);
+      left.erase(begin, end);
+    };
+    take(first.lowest);
+    for (std::size_t i = 0; i < beside.size(); ++i) {
+      for_samples_around(lattice, sources[beside[i]].lowest, 1, take);
+    }
+    std::sort(beside.begin(), beside.end());
+    for (std::size_t i = 0; i < beside.size(); ++i) {
+      if (i == 0 || beside.size() <= kMaxAlone) fronts.emplace_back();
+      fronts.back().push_back(sources[beside[i]]);
     }
   }
   // What comes later is left out where it is farther: in the order of a list along a line each

@@ -57,7 +57,7 @@ TEST(GridSources, OfSourcesAsNearAsEachOtherTheFirstIsNamed) {
   EXPECT_EQ(d.nearest_source[grid.number({16, 5, 0})], 0);
 }
 
-TEST(GridSources, OfMoreThanAreMarchedAloneTheNearestIsFoundAsWell) {
+TEST(GridSources, OfManySideBySideTheNearestIsFoundAsWell) {
   Grid disc = samples_of(101, 101, 1);
   disc.speeds.assign(101 * 101, 0.0);
   std::vector<Index> rim;
