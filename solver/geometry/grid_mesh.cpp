@@ -164,27 +164,6 @@ bool GridLattice::passes(const std::array<Index, 3>& cell_at, const GridPlace& w
   return false;
 }
 
-bool GridLattice::is_in_sight(const GridPlace& sample, const GridPlace& place,
-                              double slowness) const {
-  GridPlace way{};
-  std::vector<double> cuts = {0, 1};  // shares of the way at which it enters another cell
-  for (int e = 0; e < dimension_; ++e) {
-    way[e] = place[e] - sample[e];
-    for (double i = 1; i < std::abs(way[e]); ++i) cuts.push_back(i / std::abs(way[e]));
-  }
-  std::sort(cuts.begin(), cuts.end());
-  for (std::size_t i = 0; i + 1 < cuts.size(); ++i) {
-    if (cuts[i] == cuts[i + 1]) continue;
-    const double share = (cuts[i] + cuts[i + 1]) / 2;
-    std::array<Index, 3> at{};
-    for (int e = 0; e < dimension_; ++e) {
-      at[e] = static_cast<Index>(std::floor(sample[e] + share * way[e]));
-    }
-    if (!passes(at, way, slowness)) return false;
-  }
-  return true;
-}
-
 bool GridLattice::has_edge(Index sample, int e) const {
   return grid_->speed(sample) > 0 && !at_end(sample, e) && grid_->speed(sample + stride_[e]) > 0;
 }

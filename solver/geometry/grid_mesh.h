@@ -63,9 +63,6 @@ class GridLattice {
   /// Whether a line in this direction that runs through a cell, numbered along each axis, has one
   /// of this slowness there: on either side of it where it runs inside a face.
   bool passes(const std::array<Index, 3>& cell, const GridPlace& way, double slowness) const;
-  /// Whether the straight line from a sample to a place runs through cells of this slowness alone.
-  /// Cost: that of the cells on it.
-  bool is_in_sight(const GridPlace& sample, const GridPlace& place, double slowness) const;
   /// Whether every sample that passes has speed 1.
   bool is_uniform() const { return uniform_; }
   /// Whether all samples that pass have the same speed.

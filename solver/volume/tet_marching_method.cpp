@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "solver/volume/tet_marching_method.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <queue>
@@ -12,6 +13,8 @@
 #include "solver/geometry/cell_mesh.h"
 #include "solver/method/marching_method.h"
 #include "solver/volume/clean_tets.h"
+#include "solver/volume/reentrant_lines.h"
+#include "solver/volume/tet_source.h"
 #include "solver/volume/tet_update.h"
 
 namespace geotherm {
@@ -25,12 +28,18 @@ struct MarchedTets {
   std::vector<Index> original;       ///< their numbers in the mesh, ascending
   CellTable around;                  ///< the clean tets around each vertex
   std::vector<double> longest_edge;  ///< V
+  ReentrantLines reentrant;
 };
 
 MarchedTets marched_tets(std::shared_ptr<const TetMesh> mesh, CleanTets clean,
                          double straight_reach) {
-  MarchedTets out{
-      std::move(mesh), straight_reach, std::move(clean.tets), std::move(clean.original), {}, {}};
+  MarchedTets out{std::move(mesh),
+                  straight_reach,
+                  std::move(clean.tets),
+                  std::move(clean.original),
+                  {},
+                  {},
+                  {}};
   out.around = CellTable(out.mesh->vertex_count(), static_cast<Index>(out.tets.size()), 1,
                          [&out](Index t) -> const Tet& { return out.tets[t]; });
   const auto positions = out.mesh->positions();
@@ -43,12 +52,16 @@ MarchedTets marched_tets(std::shared_ptr<const TetMesh> mesh, CleanTets clean,
       }
     }
   }
+  out.reentrant = reentrant_lines(positions, out.tets, out.around);
   return out;
 }
 
 /// One query. Two kinds of news spread, in the order of distance: that a vertex sees a source, and
 /// that its distance became less. A vertex near a ridge, where sources meet, sees those behind it
-/// as well: the lines to vertices before the ridge may cross faces with corners behind it.
+/// as well: the lines to vertices before the ridge may cross faces with corners behind it. Round a
+/// straight re-entrant edge of the border ways bend: with the part before it turned into the plane
+/// of the part behind it they are straight lines, too, so that the edge is a source of its own
+/// behind which vertices are seen.
 class TetMarch {
  public:
   explicit TetMarch(const MarchedTets& tets) : m_(tets) {
@@ -68,8 +81,7 @@ class TetMarch {
     if (m_.around.at(v).empty()) {
       return Error{ErrorCode::kBadInput, "source vertex " + std::to_string(v) + " is in no tet"};
     }
-    sources_.push_back({at(v), offset});
-    see(v, static_cast<Index>(sources_.size()) - 1);
+    see(v, add_source(at(v), offset));
     return {};
   }
 
@@ -82,8 +94,8 @@ class TetMarch {
     const Tet& tet = m_.mesh->tets()[point.cell];
     Vec3 place = Vec3::Zero();
     for (std::size_t k = 0; k < 4; ++k) place += point.weights[k] * at(tet[k]);
-    sources_.push_back({place, 0});
-    for (const Index v : tet) see(v, static_cast<Index>(sources_.size()) - 1);
+    const Index source = add_source(place, 0);
+    for (const Index v : tet) see(v, source);
     return {};
   }
 
@@ -94,7 +106,7 @@ class TetMarch {
     while (!queue_.empty()) {
       const News next = queue_.top();
       queue_.pop();
-      const double slack = next.source == kNoIndex ? 0 : slack_at(next.vertex);
+      const double slack = next.source == kNoIndex ? 0 : slack_at(next.vertex, next.source);
       if (next.distance > out_.distances[next.vertex] + slack) continue;  // nearer meanwhile
       if (++visits % kReported == 0 &&
           !report(progress, "marching", std::min(1.0, 0.5 * double(visits) / double(vertices)))) {
@@ -107,14 +119,13 @@ class TetMarch {
       }
       spread(next);
     }
+    for (Index& source : out_.nearest) {
+      if (source != kNoIndex) source = sources_[source].root;
+    }
     return std::move(out_);
   }
 
  private:
-  struct Source {
-    Vec3 place;
-    double offset;
-  };
   struct News {
     double distance;
     Index vertex;
@@ -129,16 +140,27 @@ class TetMarch {
   };
   /// Sources that a vertex sees are noted up to this many; of more, as at the centre of a ball
   /// whose border is the source, only those count that are nearer than all before.
-  static constexpr Index kMaxSights = 8;
+  static constexpr Index kMaxSights = 16;
 
   const Vec3& at(Index v) const { return m_.mesh->positions()[v]; }
 
-  /// So much farther than the nearest source may be one that a vertex sees.
-  double slack_at(Index v) const { return sources_.size() > 1 ? 2 * m_.longest_edge[v] : 0; }
-
-  double line_from(Index source, Index v) const {
-    return sources_[source].offset + (sources_[source].place - at(v)).norm();
+  Index add_source(const Vec3& place, double offset) {
+    const auto number = static_cast<Index>(sources_.size());
+    sources_.push_back({place, offset, number, number});
+    ++given_;
+    return number;
   }
+
+  /// So much farther than the nearest source may be one that a vertex sees.
+  double slack_at(Index v, Index source) const {
+    constexpr Index kFew = 8;
+    constexpr double kOfEdge = 2, kOfMany = 4;
+    if (sources_.size() == 1) return 0;
+    if (sources_[source].line != kNoIndex) return kOfEdge * m_.longest_edge[v];
+    return given_ > kFew ? kOfMany * m_.longest_edge[v] : kUnreached;
+  }
+
+  double line_from(Index source, Index v) const { return sources_[source].line_to(at(v)); }
 
   bool sees(Index v, Index source) const {
     for (Index i = first_sight_[v]; i != kNoIndex; i = sights_[i].next) {
@@ -151,15 +173,45 @@ class TetMarch {
   void see(Index v, Index source) {
     const double line = line_from(source, v);
     double& held = out_.distances[v];
-    if (line > held + slack_at(v)) return;
+    if (line > held + slack_at(v, source)) return;
     if (sights_of_[v] >= kMaxSights && line >= held) return;
     ++sights_of_[v];
     sights_.push_back({source, first_sight_[v]});
     first_sight_[v] = static_cast<Index>(sights_.size()) - 1;
     queue_.push({line, v, source});
-    if (line > held || (line == held && straight_[v] != 0)) return;
-    straight_[v] = 1;
-    set(v, line, source);
+    const bool is_nearer = line < held || (line == held && straight_[v] == 0);
+    if (is_nearer) {
+      straight_[v] = 1;
+      set(v, line, source);
+    }
+    if (line > out_.distances[v]) return;
+    for (const auto& end : m_.reentrant.at(v)) see_round(v, source, end.line);
+  }
+
+  /// The vertex on this re-entrant line sees the source: what is behind it is seen round the line.
+  void see_round(Index v, Index source, Index number) {
+    constexpr double kRoundOff = 1e-9;
+    const ReentrantLines::Line& line = m_.reentrant.lines[number];
+    for (const Index known : sources_[source].behind) {
+      if (sources_[known].line != number) continue;
+      if (!sees(v, known)) see(v, known);
+      return;
+    }
+    const TetSource& s = sources_[source];
+    const bool is_edge = s.line != kNoIndex;
+    // Round two lines ways are straight in one plane where these are parallel.
+    if (is_edge && (s.line == number || s.direction.cross(line.direction).norm() > kRoundOff)) {
+      return;
+    }
+    const Vec3 way = s.place - line.place;
+    const double along = way.dot(line.direction);
+    const double off = (way - along * line.direction).norm();
+    if (!(off > kRoundOff * m_.longest_edge[v])) return;
+    const auto bent = static_cast<Index>(sources_.size());
+    sources_.push_back({line.place + along * line.direction, s.offset, source, s.root, number,
+                        line.direction, s.before + off});
+    sources_[source].behind.push_back(bent);
+    see(v, bent);
   }
 
   void set(Index v, double distance, Index source) {
@@ -184,16 +236,51 @@ class TetMarch {
     }
   }
 
+  /// Whether the line from v passes on the inside of all edges that the source sees, and a corner
+  /// beside it sees the source round one of these.
+  bool passes_edges(Index corner, Index v, Index source) const {
+    const TetSource& s = sources_[source];
+    bool is_round = false;
+    for (Index i = first_sight_[corner]; i != kNoIndex && !is_round; i = sights_[i].next) {
+      is_round = sights_[i].source != source && sources_[sights_[i].source].parent == source;
+    }
+    if (s.line != kNoIndex || !is_round) return false;
+    is_round = false;
+    for (const Index edge : s.behind) {
+      const TetSource& e = sources_[edge];
+      const Vec3& inward = m_.reentrant.lines[e.line].inward;
+      const Vec3 across = e.direction.cross(inward), from = s.place - e.place, to = at(v) - e.place;
+      const double before = from.dot(across), behind = to.dot(across);
+      if (before * behind >= 0) continue;
+      if (!((before * to - behind * from).dot(inward) * before > 0)) return false;
+      is_round = is_round || sees(corner, edge);
+    }
+    return is_round;
+  }
+
   void offer_line(Index v, const Face& face, Index source) {
-    const Vec3 to_source = sources_[source].place - at(v);
-    if (!(to_source.norm() <= m_.straight_reach) || sees(v, source)) return;
+    if (sees(v, source)) return;
+    const Vec3 to_source = sources_[source].target(at(v)) - at(v);
+    if (!(to_source.norm() <= m_.straight_reach)) return;
     const FaceCrossing crossing =
         cross_face({at(face[0]) - at(v), at(face[1]) - at(v), at(face[2]) - at(v)}, to_source);
     if (!crossing.crosses) return;
+    bool one_sees = false;  // on the inside of the edges that hide the source from others
     for (std::size_t i = 0; i < 3; ++i) {
-      if (crossing.weights[i] > 0 && !sees(face[i], source)) return;
+      if (!(crossing.weights[i] > 0)) continue;
+      if (sees(face[i], source)) {
+        one_sees = true;
+      } else if (!passes_edges(face[i], v, source)) {
+        return;
+      }
     }
+    if (!one_sees) return;
     see(v, source);
+  }
+
+  /// Where an edge begins to hide its source the fronts of both touch each other smoothly.
+  bool is_one_front(Index a, Index b) const {
+    return a == b || (a != kNoIndex && (sources_[a].parent == b || sources_[b].parent == a));
   }
 
   /// From the corners that have the same nearest source alone: distance has a ridge where sources
@@ -205,21 +292,22 @@ class TetMarch {
     if (straight_[v] != 0 && out_.nearest[v] == source) return;
     std::array<KnownCorner, 3> known;
     for (std::size_t i = 0; i < 3; ++i) {
-      const bool same = out_.nearest[face[i]] == source;
+      const bool same = is_one_front(out_.nearest[face[i]], source);
       known[i] = {at(face[i]) - at(v), same ? out_.distances[face[i]] : kUnreached};
     }
-    const double distance = std::max(updated_distance(known), line_from(source, v));
+    const double distance = std::max(updated_distance(known), line_from(sources_[source].root, v));
     if (!(distance < out_.distances[v] * (1 - kRoundOff))) return;
     straight_[v] = 0;
     set(v, distance, source);
   }
 
   const MarchedTets& m_;
-  std::vector<Source> sources_;
+  std::vector<TetSource> sources_;  ///< those that were given, then edges
+  Index given_ = 0;
   std::vector<Index> first_sight_;  ///< V: into sights_, a list for each vertex
   std::vector<Sight> sights_;
   std::vector<Index> sights_of_;        ///< V: how many
-  std::vector<std::uint8_t> straight_;  ///< V: the distance is the line to `nearest`
+  std::vector<std::uint8_t> straight_;  ///< V: whether the distance is a line from `nearest`
   Marched out_;
   std::priority_queue<News> queue_;
 };

@@ -15,7 +15,9 @@ namespace geotherm {
 /// A vertex has the straight line's length where its source is a corner of one of its tets, or
 /// where the line to the source leaves one of its tets through a face whose corners (those that
 /// weigh at the crossing) have it from the same source. In a convex volume that is every vertex. It
-/// can be too short only behind a hole that is narrower than one face in its shadow. Elsewhere a
+/// can be too short only behind a hole that is narrower than one face in its shadow. A straight
+/// re-entrant edge of the border that sees the source is one of its own for what lies behind it.
+/// Elsewhere a
 /// vertex has the least that the planes through the distances of the other corners of its tets give
 /// (updated_distance()), of first order in the edge length. A vertex that became nearer is looked
 /// at again, in the order of distance, until nothing changes: obtuse tets, whose fronts arrive in
@@ -27,7 +29,7 @@ namespace geotherm {
 /// how planes alone converge. Some edges around a point source must be exact, for the front is bent
 /// there; 0: only the tets that touch the source. Errors: kBadInput (no tet with a volume); of a
 /// query also kBudgetEnded. Cost: O(V + T), some 35 bytes a tet; of a query O(T log V), some
-/// microseconds a vertex. Throws std::bad_alloc.
+/// microseconds a vertex; of up to 8 sources each is followed everywhere. Throws std::bad_alloc.
 Result<std::shared_ptr<const DistanceMethod>> build_tet_marching(
     std::shared_ptr<const TetMesh> mesh, int threads, const Progress& progress = {},
     double straight_reach = kUnreached);
