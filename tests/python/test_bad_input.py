@@ -97,7 +97,7 @@ def test_lists_of_whole_numbers_in_a_list_are_no_set(solver):
 def test_text_and_numbers_are_told_apart(solver):
     for ask, said in [
         (lambda: solver.distances([["17"]]), "a set that holds the text '17'; give numbers"),
-        (lambda: solver.path("17", 900), "the text '17' before what is no text; give texts alone"),
+        (lambda: solver.path("17", 900), "the text '17' before what is no text; give the texts last"),
     ]:
         with pytest.raises(geotherm.InputError, match=said):
             ask()
