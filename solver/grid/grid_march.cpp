@@ -25,7 +25,9 @@ GridMarch::GridMarch(const GridLattice& lattice, double reach)
   state_.assign(count, 0);
   if (lattice.has_one_speed()) return;
   for (const double speed : grid_.speeds) {
-    if (speed > 0) fastest_ = std::min(fastest_, 1 / speed);
+    if (!(speed > 0)) continue;
+    fastest_ = std::min(fastest_, 1 / speed);
+    slowest_ = std::max(slowest_, 1 / speed);
   }
 }
 
@@ -284,11 +286,20 @@ bool GridMarch::see(Index v, Index source, bool follows) {
   }
   const Corners corners = corners_at(ahead, main, source, follows);
   if (corners != Corners::kAllSee && !follows) return false;
-  if (corners == Corners::kNoneSees && sources_.size() == 1) return false;
+  if (corners == Corners::kNoneSees && (sources_.size() == 1 || !is_beside_sight(v))) return false;
   if (corners != Corners::kAllSee && !is_in_sight(at, way, main, source)) return false;
   set(v, line, source);  // also upwards: a slope may be too flat
   state_[v] |= kSees;
   return true;
+}
+
+/// Whether a final sample beside it sees a source: else a line would be followed for nothing
+/// through all of a shadow.
+bool GridMarch::is_beside_sight(Index v) const {
+  bool beside = false;
+  for_samples_around(lattice_, v, 1,
+                     [&](Index w) { beside = beside || (is(w, kFinal) && is(w, kSees)); });
+  return beside;
 }
 
 /// Which corners see the source, of the side across `main` that a line crosses here.

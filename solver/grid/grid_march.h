@@ -59,7 +59,7 @@ class GridMarch {
   GridMarch(const GridLattice& lattice, double reach);
 
   /// One front. What is farther than `found`, where it is not null, by more than the widths
-  /// of two cells is left out. False: `report` said so.
+  /// of two cells in the slowest samples is left out. False: `report` said so.
   template <class Report>
   bool march(std::span<const GridSource> sources, const Found* found, const Report& report);
   /// Puts the front's samples into `found` where they are nearer, and forgets them. Of sources as
@@ -110,6 +110,7 @@ class GridMarch {
                  const Offer& most) const;
   void see_those_of_neighbors(Index v);
   bool see(Index v, Index source, bool follows);
+  bool is_beside_sight(Index v) const;
   Corners corners_at(const GridPlace& at, int main, Index source, bool wants_some) const;
   bool is_in_sight(const GridPlace& at, const GridPlace& way, int main, Index source) const;
 
@@ -117,7 +118,7 @@ class GridMarch {
   const Grid& grid_;
   const int d_;
   const double reach_;
-  double fastest_ = kUnreached;  ///< the least slowness of all samples
+  double fastest_ = kUnreached, slowest_ = 0;  ///< least and largest slowness, of several speeds
   std::span<const GridSource> sources_;
   std::vector<double> distance_;
   std::vector<Index> nearest_;  ///< into sources_
@@ -136,7 +137,7 @@ bool GridMarch::march(std::span<const GridSource> sources, const Found* found,
   for (const GridSource& source : sources) {
     start(source);
     for (int e = 0; e < d_; ++e) {
-      slack = std::max(slack, 2 * lattice_.spacing(e) * source.slowness);
+      slack = std::max(slack, 2 * lattice_.spacing(e) * std::max(source.slowness, slowest_));
     }
   }
   while (!queue_.empty()) {

@@ -75,6 +75,7 @@ std::vector<std::vector<GridSource>> fronts_of(const GridLattice& lattice,
 
 Result<GridMarch::Found> march_fronts(const GridLattice& lattice, std::vector<GridSource> sources,
                                       double reach, const Progress& progress) {
+  constexpr std::size_t kFrontsOfReport = 256;
   const auto samples = static_cast<std::size_t>(lattice.grid().sample_count());
   for (std::size_t i = 0; i < sources.size(); ++i) sources[i].number = static_cast<Index>(i);
   const auto fronts = fronts_of(lattice, sources);
@@ -94,6 +95,7 @@ Result<GridMarch::Found> march_fronts(const GridLattice& lattice, std::vector<Gr
       const double all = (static_cast<double>(i) + share) / static_cast<double>(fronts.size());
       return report(progress, "marching", all);
     };
+    if (i % kFrontsOfReport == 0 && !said(0)) return cancelled_error();
     if (!march.march(fronts[i], i == 0 ? nullptr : &found, said)) return cancelled_error();
     march.merge(found);
   }

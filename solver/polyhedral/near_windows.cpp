@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <span>
 
 #include "solver/polyhedral/wave_corners.h"
 
@@ -18,6 +19,9 @@ using NearPoint = Eigen::Vector2d;
 constexpr double kNearSides = 1;
 /// Angles up to this much above that of a plane count as flat.
 constexpr double kFlatNear = 1e-9;
+/// A window is trimmed by no more than the latest so many of an edge, which curves of thousands of
+/// pieces in one face would fill: one that is wider than it need be lowers nothing.
+constexpr std::size_t kMostBeside = 64;
 /// No more windows than this many, and one for so many faces, are followed.
 constexpr std::size_t kMostNear = 50000, kFacesPerWindow = 2;
 
@@ -224,7 +228,8 @@ void NearWindows::leave(SideCode side, Window window) {
   window.side = side;
   if (!trim_by_ends(window, length, at_begin, at_end)) return;
   std::vector<int>& others = on_edge_[edge];
-  for (const int number : others) {
+  const std::size_t latest = others.size() < kMostBeside ? 0 : others.size() - kMostBeside;
+  for (const int number : std::span(others).subspan(latest)) {
     const Window& other = sent_[number].window;
     if (other.side == side && other.label == window.label && have_same_source(other, window)) {
       if (is_known(window, number, kOrder * length)) return;

@@ -236,26 +236,37 @@ class TetMarch {
     }
   }
 
-  /// Whether the line from v passes on the inside of all edges that the source sees, and a corner
-  /// beside it sees the source round one of these.
+  enum class Passage { kBefore, kInside, kHidden };
+  /// How the line from a vertex to a source passes an edge that the source sees: it ends before the
+  /// edge, or is on the inside of the border there, or is not.
+  Passage passage(Index v, const TetSource& source, const TetSource& edge) const {
+    const Vec3& inward = m_.reentrant.lines[edge.line].inward;
+    const Vec3 across = edge.direction.cross(inward);
+    const Vec3 from = source.place - edge.place, to = at(v) - edge.place;
+    const double before = from.dot(across), behind = to.dot(across);
+    if (before * behind >= 0) return Passage::kBefore;
+    const double inside = (before * to - behind * from).dot(inward) * before;
+    return inside > 0 ? Passage::kInside : Passage::kHidden;
+  }
+
+  /// Whether the line from v passes on the inside of all edges that the source sees, and of one by
+  /// which the source is hidden from a corner beside it. What hides it from the corner may hide it
+  /// from v else.
   bool passes_edges(Index corner, Index v, Index source) const {
     const TetSource& s = sources_[source];
-    bool is_round = false;
-    for (Index i = first_sight_[corner]; i != kNoIndex && !is_round; i = sights_[i].next) {
-      is_round = sights_[i].source != source && sources_[sights_[i].source].parent == source;
-    }
-    if (s.line != kNoIndex || !is_round) return false;
-    is_round = false;
-    for (const Index edge : s.behind) {
+    if (s.line != kNoIndex) return false;
+    const auto hides = [&](Index edge) {
       const TetSource& e = sources_[edge];
-      const Vec3& inward = m_.reentrant.lines[e.line].inward;
-      const Vec3 across = e.direction.cross(inward), from = s.place - e.place, to = at(v) - e.place;
-      const double before = from.dot(across), behind = to.dot(across);
-      if (before * behind >= 0) continue;
-      if (!((before * to - behind * from).dot(inward) * before > 0)) return false;
-      is_round = is_round || sees(corner, edge);
+      return edge != source && e.parent == source && passage(corner, s, e) == Passage::kHidden &&
+             passage(v, s, e) == Passage::kInside;
+    };
+    bool is_hidden = false;
+    for (Index i = first_sight_[corner]; i != kNoIndex && !is_hidden; i = sights_[i].next) {
+      is_hidden = hides(sights_[i].source);
     }
-    return is_round;
+    return is_hidden && std::ranges::none_of(s.behind, [&](Index edge) {
+             return passage(v, s, sources_[edge]) == Passage::kHidden;
+           });
   }
 
   void offer_line(Index v, const Face& face, Index source) {
@@ -278,9 +289,13 @@ class TetMarch {
     see(v, source);
   }
 
-  /// Where an edge begins to hide its source the fronts of both touch each other smoothly.
-  bool is_one_front(Index a, Index b) const {
-    return a == b || (a != kNoIndex && (sources_[a].parent == b || sources_[b].parent == a));
+  /// Where an edge begins to hide its source the fronts of both touch each other smoothly: two
+  /// vertices that have straight lines from these are of one front.
+  bool are_of_one_front(Index v, Index w) const {
+    const Index a = out_.nearest[v], b = out_.nearest[w];
+    if (a == b) return true;
+    if (a == kNoIndex || straight_[v] == 0 || straight_[w] == 0) return false;
+    return sources_[a].parent == b || sources_[b].parent == a;
   }
 
   /// From the corners that have the same nearest source alone: distance has a ridge where sources
@@ -292,7 +307,7 @@ class TetMarch {
     if (straight_[v] != 0 && out_.nearest[v] == source) return;
     std::array<KnownCorner, 3> known;
     for (std::size_t i = 0; i < 3; ++i) {
-      const bool same = is_one_front(out_.nearest[face[i]], source);
+      const bool same = are_of_one_front(face[i], changed);
       known[i] = {at(face[i]) - at(v), same ? out_.distances[face[i]] : kUnreached};
     }
     const double distance = std::max(updated_distance(known), line_from(sources_[source].root, v));

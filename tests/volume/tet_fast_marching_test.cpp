@@ -2,7 +2,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <map>
 #include <memory>
+#include <utility>
+#include <vector>
 
 #include "bench/models/volumes.h"
 #include "solver/volume/tet_marching_method.h"
@@ -178,6 +181,48 @@ TEST(TetMarching, RoundStraightEdgesDistancesAreThoseOfUnfoldedWays) {
     }
     EXPECT_LT(error, 0.003 * all) << n;
   }
+}
+
+/// The mesh with a wall without thickness at x = 1, from y = 0.5 to y = 1.
+TetMesh with_slit(const TetMesh& mesh) {
+  std::vector<Vec3> positions(mesh.positions().begin(), mesh.positions().end());
+  std::vector<Tet> tets(mesh.tets().begin(), mesh.tets().end());
+  std::map<Index, Index> behind;
+  for (Index v = 0; v < mesh.vertex_count(); ++v) {
+    const Vec3 p = positions[v];
+    if (std::abs(p.x() - 1) > 1e-9 || p.y() < 0.5 + 1e-9 || p.y() > 1 - 1e-9) continue;
+    behind[v] = static_cast<Index>(positions.size());
+    positions.push_back(p);
+  }
+  for (Tet& tet : tets) {
+    double x = 0;
+    for (const Index v : tet) x += positions[v].x() / 4;
+    for (Index& v : tet) {
+      if (const auto at = behind.find(v); x > 1 && at != behind.end()) v = at->second;
+    }
+  }
+  return *TetMesh::build(std::move(positions), std::move(tets));
+}
+
+TEST(TetMarching, SeesNothingThroughAWallBesideReentrantEdges) {
+  const auto notch = [](const Vec3& p) { return p.x() > 0.7 && p.x() < 0.8 && p.y() < 0.4; };
+  const TetMesh mesh = with_slit(slab(10, notch));
+  int behind = 0;
+  for (const Vec3 from : {Vec3(0.2, 0.5, 0), Vec3(0.5, 0.3, 0), Vec3(0.4, 1.2, 0)}) {
+    const Index source = closest_point(mesh, from)->point.vertex;
+    const DistanceResult d = marched(*marching_on(mesh), SourceSet::of_vertices({source}));
+    for (Index v = 0; v < mesh.vertex_count(); ++v) {
+      const Vec3& p = mesh.positions()[v];
+      const double crossing = from.y() + (1 - from.x()) / (p.x() - from.x()) * (p.y() - from.y());
+      if (p.x() <= 1 + 1e-9 || crossing <= 0.5 || crossing >= 1) continue;
+      const auto over = [&](double y) {
+        return std::hypot(1 - from.x(), y - from.y()) + std::hypot(p.x() - 1, p.y() - y);
+      };
+      EXPECT_GE(d.distances[v], std::hypot(std::min(over(0.5), over(1)), p.z()) * (1 - 1e-9));
+      ++behind;
+    }
+  }
+  EXPECT_GT(behind, 200);
 }
 
 TEST(TetMarching, SeesTheNearestOfSeveralSourcesInUnevenTets) {
