@@ -208,7 +208,7 @@ TEST(TetMarching, SeesNothingThroughAWallBesideReentrantEdges) {
   const auto notch = [](const Vec3& p) { return p.x() > 0.7 && p.x() < 0.8 && p.y() < 0.4; };
   const TetMesh mesh = with_slit(slab(10, notch));
   int behind = 0;
-  for (const Vec3 from : {Vec3(0.2, 0.5, 0), Vec3(0.5, 0.3, 0), Vec3(0.4, 1.2, 0)}) {
+  for (const Vec3& from : {Vec3(0.2, 0.5, 0), Vec3(0.5, 0.3, 0), Vec3(0.4, 1.2, 0)}) {
     const Index source = closest_point(mesh, from)->point.vertex;
     const DistanceResult d = marched(*marching_on(mesh), SourceSet::of_vertices({source}));
     for (Index v = 0; v < mesh.vertex_count(); ++v) {
