@@ -169,14 +169,8 @@ class DirectionPass {
       cross(face, next_corner(k), 1 - from_first, -1);
       cross(face, previous_corner(k), from_first, 1);
     };
-    const auto& sides = tables_.sides[edge];
-    through(sides[0]);
-    if (sides[1] >= 0) {
-      through(sides[1]);
-    } else if (sides[1] != kNoSideCode) {
-      const SideCode* list = &tables_.more[static_cast<std::size_t>(-2 - sides[1])];
-      for (SideCode j = 1; j <= list[0]; ++j) through(list[j]);
-    }
+    through(tables_.sides[edge][0]);
+    for (const SideCode side : tables_.other_sides(static_cast<Index>(edge))) through(side);
     settle(node);
   }
 

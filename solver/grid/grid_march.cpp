@@ -68,6 +68,16 @@ double GridMarch::line_from(const GridSource& source, const GridPlace& at) const
   return source.offset + source.slowness * length_of(way);
 }
 
+std::pair<GridPlace, int> GridMarch::way_to(const GridSource& source, const GridPlace& at) const {
+  GridPlace way{};
+  int main = 0;
+  for (int e = 0; e < d_; ++e) {
+    way[e] = source.place[e] - at[e];
+    if (std::abs(way[e]) > std::abs(way[main])) main = e;
+  }
+  return {way, main};
+}
+
 bool GridMarch::is_faster(Index v, Index source) const {
   constexpr double kRoundOff = 1e-12;
   return 1 / grid_.speed(v) < sources_[source].slowness * (1 - kRoundOff);
@@ -101,12 +111,7 @@ void GridMarch::start(const GridSource& source) {
   for_samples_around(lattice_, source.lowest, 2, [&](Index v) {
     if (!(grid_.speed(v) > 0)) return;
     const GridPlace at = place_in(lattice_, v);
-    GridPlace way{};
-    int main = 0;
-    for (int e = 0; e < d_; ++e) {
-      way[e] = source.place[e] - at[e];
-      if (std::abs(way[e]) > std::abs(way[main])) main = e;
-    }
+    const auto [way, main] = way_to(source, at);
     if (is_in_sight(at, way, main, number)) start_at(v, line_from(source, at), number);
   });
 }
@@ -261,12 +266,7 @@ bool GridMarch::see(Index v, Index source, bool follows) {
   if (is(v, kSees) && nearest_[v] == source) return true;
   const GridSource& s = sources_[source];
   const GridPlace at = place_in(lattice_, v);
-  GridPlace way{};  // to the source, in samples
-  int main = 0;
-  for (int e = 0; e < d_; ++e) {
-    way[e] = s.place[e] - at[e];
-    if (std::abs(way[e]) > std::abs(way[main])) main = e;
-  }
+  const auto [way, main] = way_to(s, at);
   if (std::abs(way[main]) < 1) return false;
   const double line = line_from(s, at);
   if (line > distance_[v] && (nearest_[v] != source || is(v, kFaster))) return false;

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <queue>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "solver/geometry/grid_mesh.h"
@@ -97,6 +98,8 @@ class GridMarch {
     return e + 1 < d_ ? v % lattice_.stride(e + 1) / lattice_.stride(e) : v / lattice_.stride(e);
   }
   double length_of(const GridPlace& way) const;
+  /// In samples, and the axis along which that is longest.
+  std::pair<GridPlace, int> way_to(const GridSource& source, const GridPlace& at) const;
   double line_from(const GridSource& source, const GridPlace& at) const;
   bool is_faster(Index v, Index source) const;
   Index neighbor(Index v, int e, int step) const;

@@ -25,13 +25,9 @@ constexpr std::size_t kMostBeside = 64;
 /// No more windows than this many, and one for so many faces, are followed.
 constexpr std::size_t kMostNear = 50000, kFacesPerWindow = 2;
 
-/// The frame of a side of a laid out face, in which a source inside the face is below the side.
-struct NearAxes {
-  NearPoint origin, along, inward;
-  NearAxes(const std::array<NearPoint, 3>& corners, int k, double length)
-      : origin(corners[k]),
-        along((corners[next_corner(k)] - origin) / length),
-        inward(-along.y(), along.x()) {}
+/// In the frame of a side a source inside the face is below it.
+struct NearAxes : SideAxes {
+  using SideAxes::SideAxes;
 
   /// A window of a source, without its part of the side.
   Window window(const NearPoint& source, double sigma, std::int32_t label) const {
@@ -45,13 +41,6 @@ struct NearAxes {
             0, label};
   }
 };
-
-/// Trims an interval to the places where lower + slope * place >= 0.
-void keep_positive(double lower, double slope, Window& window) {
-  if (slope > 0) window.begin = std::max(window.begin, -lower / slope);
-  if (slope < 0) window.end = std::min(window.end, -lower / slope);
-  if (slope == 0 && lower < 0) window.end = window.begin;
-}
 
 /// Where the line to (px, py), py > 0, crosses the side.
 double crossing_of(const Window& w, double px, double py) {
@@ -127,9 +116,9 @@ void NearWindows::add_piece(const SourceSeeds::Piece& piece, double offset) {
       window.end = face.length[k];
       // Within the strip, and before the piece.
       const double slope = along.dot(axes.along), start = along.dot(from);
-      keep_positive(start, slope, window);
-      keep_positive(length - start, -slope, window);
-      keep_positive(direction.dot(from), window.x, window);
+      keep_above_zero(start, slope, window.begin, window.end);
+      keep_above_zero(length - start, -slope, window.begin, window.end);
+      keep_above_zero(direction.dot(from), window.x, window.begin, window.end);
       if (window.end > window.begin) leave(4 * rank + k, window);
     }
   }
@@ -166,14 +155,8 @@ bool NearWindows::is_waiting(Index edge, double radius) const {
 
 template <class Visit>
 void NearWindows::for_each_side(Index edge, const Visit& visit) const {
-  const auto& sides = tables_.sides[edge];
-  visit(sides[0]);
-  if (sides[1] >= 0) {
-    visit(sides[1]);
-  } else if (sides[1] != kNoSideCode) {
-    const SideCode* list = &tables_.more[static_cast<std::size_t>(-2 - sides[1])];
-    for (SideCode i = 1; i <= list[0]; ++i) visit(list[i]);
-  }
+  visit(tables_.sides[edge][0]);
+  for (const SideCode side : tables_.other_sides(edge)) visit(side);
 }
 
 void NearWindows::meet(const WaveFace& face) {

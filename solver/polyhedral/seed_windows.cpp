@@ -18,22 +18,6 @@ std::array<Point2, 3> window_corners_of(const WindowMesh& mesh, Index face) {
   return {Point2(0, 0), Point2(frame.length, 0), Point2(frame.apex_x, frame.apex_y)};
 }
 
-/// The frame of a side of a face in its layout.
-struct SideAxes {
-  Point2 origin, along, inward;
-  SideAxes(const std::array<Point2, 3>& corners, int k, double length)
-      : origin(corners[k]),
-        along((corners[next_corner(k)] - origin) / length),
-        inward(-along.y(), along.x()) {}
-};
-
-/// Trims an interval to the places where lower + slope * place >= 0.
-void keep_above_zero(double lower, double slope, double& begin, double& end) {
-  if (slope > 0) begin = std::max(begin, -lower / slope);
-  if (slope < 0) end = std::min(end, -lower / slope);
-  if (slope == 0 && lower < 0) end = begin;
-}
-
 }  // namespace
 
 void Propagation::seed_point(const SourceSeeds::Piece& piece, const StartDirections::Turn* turn) {

@@ -62,13 +62,8 @@ class FanMarker {
   explicit FanMarker(WaveTables& tables) : tables_(tables), fans_(4 * tables.faces.size()) {}
 
   void run(int threads) {
-    for (const auto& sides : tables_.sides) {
-      if (sides[1] >= 0) {
-        join_ends(sides[0], sides[1]);
-      } else if (sides[1] != kNoSideCode) {
-        const SideCode* list = &tables_.more[static_cast<std::size_t>(-2 - sides[1])];
-        for (SideCode i = 1; i <= list[0]; ++i) join_ends(sides[0], list[i]);
-      }
+    for (Index e = 0; e < tables_.edge_count(); ++e) {
+      for (const SideCode side : tables_.other_sides(e)) join_ends(tables_.sides[e][0], side);
     }
     fan_ = std::move(fans_).roots();
     parallel_for(threads, tables_.vertex_count(), kMinCornersPerThread,

@@ -174,15 +174,10 @@ std::vector<WaveFront::Reached> WaveFront::take_reached() {
   };
   for (const auto& [key, edge] : keys_) add(edge);
   while (!edges.empty()) {
-    const auto& sides = tables_.sides[edges.back()];
+    const Index edge = edges.back();
     edges.pop_back();
-    add_face(sides[0]);
-    if (sides[1] >= 0) {
-      add_face(sides[1]);
-    } else if (sides[1] != kNoSideCode) {
-      const SideCode* list = &tables_.more[static_cast<std::size_t>(-2 - sides[1])];
-      for (SideCode i = 1; i <= list[0]; ++i) add_face(list[i]);
-    }
+    add_face(tables_.sides[edge][0]);
+    for (const SideCode side : tables_.other_sides(edge)) add_face(side);
   }
   clean_ = true;
   return out;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -51,6 +52,14 @@ struct WaveTables {
 
   std::span<const SideCode> corners_at(Index rank) const {
     return {corners.data() + corner_start[rank], corners.data() + corner_start[rank + 1]};
+  }
+  /// The sides of an edge beside its first.
+  std::span<const SideCode> other_sides(Index edge) const {
+    const SideCode& second = sides[edge][1];
+    if (second >= 0) return {&second, 1};
+    if (second == kNoSideCode) return {};
+    const SideCode* const list = &more[static_cast<std::size_t>(-2 - second)];
+    return {list + 1, static_cast<std::size_t>(list[0])};
   }
   Index vertex_count() const { return static_cast<Index>(vertex_of_rank.size()); }
   Index edge_count() const { return static_cast<Index>(sides.size()); }

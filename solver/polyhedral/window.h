@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <Eigen/Core>
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <numbers>
@@ -123,5 +126,21 @@ bool yield_to_leader(Window& window, double length, double apex_x, double apex_y
 /// are in one frame of the edge, from any of its faces. Returns false when nothing is left. A
 /// dominated part in the middle stays. (Complete trimming: Mitchell, Mount, Papadimitriou 1987.)
 bool trim_dominated_ends(Window& window, const Window& other, double length);
+
+/// The frame of a side of a face in its layout.
+struct SideAxes {
+  Eigen::Vector2d origin, along, inward;
+  SideAxes(const std::array<Eigen::Vector2d, 3>& corners, int k, double length)
+      : origin(corners[k]),
+        along((corners[next_corner(k)] - origin) / length),
+        inward(-along.y(), along.x()) {}
+};
+
+/// Trims an interval to the places where lower + slope * place >= 0.
+inline void keep_above_zero(double lower, double slope, double& begin, double& end) {
+  if (slope > 0) begin = std::max(begin, -lower / slope);
+  if (slope < 0) end = std::min(end, -lower / slope);
+  if (slope == 0 && lower < 0) end = begin;
+}
 
 }  // namespace geotherm

@@ -5,7 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <numeric>
+
+#include "solver/core/sorting.h"
 
 namespace geotherm {
 namespace {
@@ -85,23 +86,17 @@ ReentrantLines reentrant_lines(std::span<const Vec3> positions, std::span<const 
     for (const Index v : {edges[i].from, edges[i].to}) ends.push_back({v, static_cast<Index>(i)});
   }
   std::ranges::sort(ends, {}, [](const auto& end) { return std::pair(end.vertex, end.line); });
-  std::vector<Index> first(edges.size());  // another edge of the same line, of lower number
-  std::iota(first.begin(), first.end(), 0);
-  const auto first_of = [&first](Index i) {
-    while (first[i] != i) i = first[i] = first[first[i]];
-    return i;
-  };
+  DisjointSets same_line(edges.size());
   for (std::size_t i = 0; i < ends.size(); ++i) {
     for (std::size_t k = i + 1; k < ends.size() && ends[k].vertex == ends[i].vertex; ++k) {
       const Index one = ends[i].line, other = ends[k].line;
-      if (directions[one].cross(directions[other]).norm() > kStraight) continue;
-      const auto [low, high] = std::minmax({first_of(one), first_of(other)});
-      first[high] = low;
+      if (!(directions[one].cross(directions[other]).norm() > kStraight))
+        same_line.join(one, other);
     }
   }
   std::vector<Index> line_of(edges.size(), kNoIndex);
   for (auto& [vertex, edge] : ends) {
-    const Index one = first_of(edge);
+    const Index one = same_line.root(edge);
     if (line_of[one] == kNoIndex) {
       line_of[one] = static_cast<Index>(out.lines.size());
       out.lines.push_back({positions[edges[one].from], directions[one], edges[one].inward});
