@@ -57,17 +57,21 @@ std::shared_ptr<const WaveSurface> waves_of(const DistanceMethod* method) {
   return nullptr;
 }
 
+/// Only wavefronts walk over inserted vertices.
+RefineRule refine_rule(MethodKind method) {
+  const bool may = method == MethodKind::kWavefront || method == MethodKind::kWavefrontFine;
+  return may ? RefineRule::kWhereNeeded : RefineRule::kNever;
+}
+
 /// Builds the method on the mesh as it is, neither refined nor welded.
 Built build_plain(std::shared_ptr<const TriangleMesh> mesh, const MethodOptions& options,
                   const Progress& progress, std::shared_ptr<const WaveSurface> waves) {
   if (options.method == MethodKind::kHeat) {
     return as_heat(HeatMethod::build(std::move(mesh), options, progress));
   }
-  const bool walks_on_inserted =
-      options.method == MethodKind::kWavefront || options.method == MethodKind::kWavefrontFine;
-  if (!waves || (waves->base.refinement.points > 0 && !walks_on_inserted)) {
-    auto made =
-        build_wave_surface(mesh, part_of(progress, 0.0, 0.5), thread_count(options.threads));
+  if (!waves) {
+    auto made = build_wave_surface(mesh, refine_rule(options.method), part_of(progress, 0.0, 0.5),
+                                   thread_count(options.threads));
     if (!made) return made.error();
     waves = *std::move(made);
   }
@@ -198,8 +202,9 @@ Built build_method_moved(std::shared_ptr<const TriangleMesh> moved, const Method
     return build_method(std::move(moved), options, progress);
   }
   if (auto same = check_moved(*waves->base.mesh, *moved); !same) return same.error();
-  auto made = build_wave_surface(std::move(moved), part_of(progress, 0.0, 0.5),
-                                 thread_count(options.threads), waves.get());
+  auto made =
+      build_wave_surface(std::move(moved), refine_rule(options.method), part_of(progress, 0.0, 0.5),
+                         thread_count(options.threads), waves.get());
   if (!made) return made.error();
   return on_waves(*std::move(made), options, part_of(progress, 0.5, 1.0),
                   dynamic_cast<const WavefrontMethod*>(earlier));

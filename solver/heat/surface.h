@@ -50,8 +50,10 @@ struct Surface final : IntrinsicSurface, Domain {
   const RefinementCounts& inserted() const override { return refinement; }
   const Surface* surface() const override { return this; }
 
-  /// Whether waves may walk over its triangulation: it was made Delaunay and is no cover.
-  bool serves_waves() const { return asked != LaplacianKind::kCotan && !tufted; }
+  /// Whether its triangulation is that of waves: Delaunay, refined where needed, and no cover.
+  bool serves_waves() const {
+    return (asked == LaplacianKind::kAuto || asked == LaplacianKind::kRefined) && !tufted;
+  }
 };
 
 /// `progress` is asked between operators, flips and analysis, as stages "operators" and "analyze".

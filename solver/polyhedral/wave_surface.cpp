@@ -197,14 +197,15 @@ Error wave_out_of_memory(const char* stage, Index faces) {
 }
 
 Result<std::shared_ptr<const WaveSurface>> build_wave_surface(
-    std::shared_ptr<const TriangleMesh> mesh, const Progress& progress, int threads,
-    const WaveSurface* earlier) {
+    std::shared_ptr<const TriangleMesh> mesh, RefineRule refine, const Progress& progress,
+    int threads, const WaveSurface* earlier) {
   const Index faces = mesh->face_count();
   threads = threads_worth_starting(threads, kSurfaceNanosecondsPerFace * faces);
   try {
     const ThreadCrew crew(threads);
     auto base = build_intrinsic_surface(
-        std::move(mesh), {.flip = FlipRule::kAlways, .strictness = Strictness::kHeights},
+        std::move(mesh),
+        {.flip = FlipRule::kAlways, .refine = refine, .strictness = Strictness::kHeights},
         part_of(progress, 0.0, 0.9), threads, earlier != nullptr ? &earlier->base : nullptr);
     if (!base) return base.error();
     auto triangulation = std::make_shared<IntrinsicSurface>(*std::move(base));
@@ -221,6 +222,12 @@ Result<std::shared_ptr<const WaveSurface>> build_wave_surface(
 }
 
 Result<std::shared_ptr<const WaveSurface>> build_wave_surface(
+    std::shared_ptr<const TriangleMesh> mesh, const Progress& progress, int threads,
+    const WaveSurface* earlier) {
+  return build_wave_surface(std::move(mesh), RefineRule::kWhereNeeded, progress, threads, earlier);
+}
+
+Result<std::shared_ptr<const WaveSurface>> build_wave_surface(
     std::shared_ptr<const IntrinsicSurface> triangulation, const Progress& progress) {
   if (!report(progress, "operators", 0.0)) return cancelled_error();
   const Index faces = triangulation->mesh->face_count();
@@ -231,6 +238,12 @@ Result<std::shared_ptr<const WaveSurface>> build_wave_surface(
   } catch (const std::bad_alloc&) {
     return wave_out_of_memory("triangulation", faces);
   }
+}
+
+Result<std::shared_ptr<const WaveSurface>> without_inserted(
+    std::shared_ptr<const WaveSurface> surface, const Progress& progress) {
+  if (surface->base.refinement.points == 0) return surface;
+  return build_wave_surface(surface->base.mesh, RefineRule::kNever, progress);
 }
 
 Result<SourceSeeds> seed_sources(const WaveSurface& surface, const SourceSet& sources) {

@@ -55,9 +55,19 @@ struct WaveSurface {
   mutable WaveEdges edges_;
 };
 
+/// build_wave_surface() with or without inserted vertices, which only wavefronts walk over.
+Result<std::shared_ptr<const WaveSurface>> build_wave_surface(
+    std::shared_ptr<const TriangleMesh> mesh, RefineRule refine, const Progress& progress = {},
+    int threads = 1, const WaveSurface* earlier = nullptr);
+
+/// The surface, triangulated again where vertices were inserted. Errors: those of
+/// build_wave_surface().
+Result<std::shared_ptr<const WaveSurface>> without_inserted(
+    std::shared_ptr<const WaveSurface> surface, const Progress& progress);
+
 /// build_wave_surface() on a given triangulation. Preconditions: it is Delaunay and, where
-/// distances are compared with those on the mesh, no tufted cover. Only the wave methods support
-/// inserted vertices. Errors: kOutOfMemory, kCancelled. Cost: O(F).
+/// distances are compared with those on the mesh, no tufted cover. Errors: kOutOfMemory,
+/// kCancelled. Cost: O(F).
 Result<std::shared_ptr<const WaveSurface>> build_wave_surface(
     std::shared_ptr<const IntrinsicSurface> triangulation, const Progress& progress = {});
 

@@ -10,7 +10,9 @@
 namespace geotherm {
 
 /// The intrinsic Delaunay triangulation of a mesh with its edges, whatever number of faces they
-/// have: what all three walk over. Immutable; one serves all of them.
+/// have: what all three walk over. Vertices are inserted where faces are large and the boundary is
+/// obtuse, as heat methods do (LaplacianKind::kRefined); fast marching and exact windows make
+/// themselves one without. Immutable; one serves all of them.
 struct WaveSurface;
 
 /// `earlier`: of the same faces with vertices elsewhere, of which what stays is taken over; or
