@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cassert>
-#include <cstring>
 
 #include "engine/scene/arrows.h"
 #include "engine/scene/coarse_surface.h"

@@ -2,7 +2,6 @@
 // Solvers, and distances from them.
 #include <algorithm>
 #include <chrono>
-#include <limits>
 #include <memory>
 #include <utility>
 

@@ -2,7 +2,6 @@
 #include "solver/distributed/shared_solve.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <memory>
 #include <utility>

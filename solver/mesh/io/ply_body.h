@@ -8,7 +8,6 @@
 #include <string>
 #include <string_view>
 #include <type_traits>
-#include <utility>
 
 #include "solver/mesh/io/byte_order.h"
 #include "solver/mesh/io/input_file.h"
