@@ -126,6 +126,15 @@ Result<std::shared_ptr<T>> object_of(const void* handle, const char* argument) {
                                                           : " is no handle, or was freed")};
 }
 
+/// The state of options; the initial one for NULL.
+inline Result<ViewerState> state_of(const geotherm_options* options) {
+  if (options == nullptr) return app::initial_state();
+  const auto object = object_of<Options>(options, "options");
+  if (!object) return object.error();
+  const std::lock_guard lock((*object)->lock);
+  return (*object)->state;
+}
+
 /// Puts an object behind a handle that the caller gets.
 template <class Handle, class T>
 void hand_out(std::shared_ptr<T> object, Handle** out) {
