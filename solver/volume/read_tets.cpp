@@ -134,9 +134,4 @@ bool holds_tets(const ModelInput& input) {
   return false;
 }
 
-bool holds_tets(const std::string& path) {
-  const auto input = ModelInput::open(path);
-  return input && holds_tets(*input);
-}
-
 }  // namespace geotherm
