@@ -164,8 +164,7 @@ TEST(TetSniffing, LooksAtTheBeginningWhereTheExtensionDoesNotTell) {
     return holds_tets(*ModelInput::open(directory.write(name, bytes)));
   };
   EXPECT_FALSE(holds("a.msh", "(0 \"Fluent\")\n"));
-  EXPECT_FALSE(
-      holds("a.vtk", "# vtk DataFile Version 3.0\nt\nASCII\nDATASET STRUCTURED_POINTS\n"));
+  EXPECT_FALSE(holds("a.vtk", "# vtk DataFile Version 3.0\nt\nASCII\nDATASET STRUCTURED_POINTS\n"));
   EXPECT_FALSE(holds("a.vtu", "<VTKFile type=\"PolyData\">"));
   EXPECT_FALSE(holds("a.obj", "v 0 0 0\n"));
   EXPECT_TRUE(holds("a.mesh", "anything"));
