@@ -12,7 +12,8 @@
 namespace geotherm {
 
 /// The shortest text that reads back as the same number; independent of the locale.
-inline std::string number_text(double value) {
+template <class Number>
+std::string number_text(Number value) {
   std::array<char, 32> buffer{};
   const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value).ptr;
   return {buffer.data(), end};
