@@ -2,10 +2,9 @@
 #include "bench/benches.h"
 
 #include <algorithm>
+#include <atomic>
 #include <chrono>
-#include <condition_variable>
 #include <filesystem>
-#include <mutex>
 #include <system_error>
 #include <thread>
 
@@ -30,28 +29,6 @@ constexpr double kStrokeMs = 5000, kTouchMs = 16;
 constexpr Index kLargeModel = 1'000'000;
 constexpr int kTurns = 30;
 
-/// Wakes whoever waits for a session's work.
-class Bell {
- public:
-  void ring() {
-    {
-      const std::lock_guard lock(mutex_);
-      rung_ = true;
-    }
-    changed_.notify_one();
-  }
-  void wait() {
-    std::unique_lock lock(mutex_);
-    changed_.wait(lock, [this] { return rung_; });
-    rung_ = false;
-  }
-
- private:
-  std::mutex mutex_;
-  std::condition_variable changed_;
-  bool rung_ = false;
-};
-
 /// A session on a worker and what draws it, as in the window.
 class Hand {
  public:
@@ -73,7 +50,8 @@ class Hand {
     const std::uint64_t before = session_.explored().version;
     if (auto done = session_.submit(command); !done) return done;
     while (session_.explored().version == before || session_.stale()) {
-      bell_.wait();
+      rung_.wait(false);
+      rung_ = false;
       session_.update();
     }
     return {};
@@ -203,11 +181,14 @@ class Hand {
  private:
   SessionHooks hooks() {
     SessionHooks hooks;
-    hooks.wake = [this] { bell_.ring(); };
+    hooks.wake = [this] {
+      rung_ = true;
+      rung_.notify_one();
+    };
     return hooks;
   }
 
-  Bell bell_;
+  std::atomic<bool> rung_ = false;  ///< by the session's work
   std::unique_ptr<SceneScreen> screen_;
   Session session_;
   std::vector<double> query_, upload_, frame_;

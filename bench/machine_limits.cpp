@@ -223,12 +223,10 @@ double multiply_add_rate(int threads) {
   return best_of([&] {
     std::vector<double> operations(static_cast<std::size_t>(threads), 0.0);
     const Stopwatch watch;
-    parallel_for(threads, threads, 1, [&](std::int64_t begin, std::int64_t end) {
-      for (std::int64_t k = begin; k < end; ++k) {
-        double sink = 0;
-        const double done = multiply_add(kRounds, set, sink);
-        operations[static_cast<std::size_t>(k)] = sink != 0 ? done : 0;
-      }
+    parallel_each(threads, threads, 1, [&](std::int64_t k) {
+      double sink = 0;
+      const double done = multiply_add(kRounds, set, sink);
+      operations[static_cast<std::size_t>(k)] = sink != 0 ? done : 0;
     });
     const double elapsed = watch.milliseconds();
     return std::accumulate(operations.begin(), operations.end(), 0.0) / elapsed * 1e-6;

@@ -2,7 +2,6 @@
 #include "bench/benches.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <utility>
 

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cassert>
-#include <cstring>
 
 #include "engine/scene/arrows.h"
 #include "engine/scene/coarse_surface.h"
@@ -168,13 +167,9 @@ Renderer::Renderer(Renderer&&) noexcept = default;
 Renderer& Renderer::operator=(Renderer&&) noexcept = default;
 Renderer::~Renderer() = default;
 
-int Renderer::samples() const { return state_->recorder.samples(); }
-
 void Renderer::set_samples(int samples) { state_->recorder.set_samples(samples); }
 
 void Renderer::set_coarse(bool coarse) { state_->coarse_wanted = coarse; }
-
-bool Renderer::has_coarse() const { return state_->faces.size() >= kManyFaces; }
 
 Result<Renderer> Renderer::build(const Device& device, int samples) {
   if (samples != 1 && samples != 4) {

@@ -100,10 +100,6 @@ class Renderer {
   /// the device has memory for it. Cost: the first time after the surface has changed, that of
   /// coarse_surface().
   void set_coarse(bool coarse);
-  /// The surface has so many faces that there is a coarse one.
-  bool has_coarse() const;
-
-  int samples() const;
   /// 1 or 4, from the next frame on; what is made for either is kept, so that turning is free.
   void set_samples(int samples);
 

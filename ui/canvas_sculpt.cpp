@@ -82,7 +82,7 @@ bool SculptStroke::begin(Frame& frame, SculptTool tool, float x, float y) {
   x_ = x;
   y_ = y;
   step_ = std::max(frame.px(kMinSpacing), kSpacing * seen_radius(frame, *point, radius));
-  const double strength = *app::number_in<double>(exact(frame.ui.sculpt.strength));
+  const double strength = *app::number_in<double>(number_text(frame.ui.sculpt.strength));
   frame.send(app::command::Sculpt{{tool, radius, strength, {*point}}});
   return true;
 }

@@ -17,16 +17,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string in_small_letters(std::string text) {
-  for (char& c : text) {
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c + 32);
-  }
-  return text;
-}
-
 bool comes_first(const FolderEntry& a, const FolderEntry& b) {
   if (a.is_folder != b.is_folder) return a.is_folder;
-  const std::string x = in_small_letters(a.name), y = in_small_letters(b.name);
+  const std::string x = lower_case(a.name), y = lower_case(b.name);
   return x != y ? x < y : a.name < b.name;
 }
 
@@ -34,12 +27,12 @@ bool comes_first(const FolderEntry& a, const FolderEntry& b) {
 
 bool has_extension(const fs::path& file, std::span<const std::string_view> extensions) {
   constexpr std::string_view kPacked = ".gz";
-  const std::string extension = in_small_letters(file.extension().string());
+  const std::string extension = lower_case(file.extension().string());
   const auto is_known = [&](std::string_view text) {
     return std::find(extensions.begin(), extensions.end(), text) != extensions.end();
   };
   if (extension == kPacked && is_known(kPacked)) {
-    return is_known(in_small_letters(file.stem().extension().string()));
+    return is_known(lower_case(file.stem().extension().string()));
   }
   return is_known(extension);
 }

@@ -3,7 +3,6 @@
 
 #include <imgui.h>
 #include <array>
-#include <charconv>
 #include <cstddef>
 #include <map>
 #include <memory>
@@ -23,14 +22,6 @@
 #include "ui/layout.h"
 
 namespace geotherm::ui {
-
-/// The shortest text that reads back as the same number.
-template <class Number>
-std::string exact(Number value) {
-  std::array<char, 40> buffer{};
-  const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value).ptr;
-  return {buffer.data(), end};
-}
 
 /// The field that is being typed in: the session hears of it when it is left.
 struct TextEdit {

@@ -6,7 +6,6 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
-#include <optional>
 #include <system_error>
 
 #include "app/text/text.h"
@@ -60,14 +59,14 @@ std::string to_text(const Layout& layout) {
   const auto line = [&text](std::string_view name, std::string_view value) {
     (((text += name) += " = ") += value) += '\n';
   };
-  line("left-width", exact(layout.left_width));
-  line("right-width", exact(layout.right_width));
-  line("log-height", exact(layout.log_height));
+  line("left-width", number_text(layout.left_width));
+  line("right-width", number_text(layout.right_width));
+  line("log-height", number_text(layout.log_height));
   line("left", flag_text(layout.left));
   line("right", flag_text(layout.right));
   line("log", flag_text(layout.log));
   line("theme", layout.theme == Theme::kDark ? "dark" : "light");
-  line("scale", exact(layout.scale));
+  line("scale", number_text(layout.scale));
   for (const std::string& path : layout.recent) line("recent", path);
   for (const auto& [section, open] : layout.open) {
     line(std::string(kOpen) + section, flag_text(open));

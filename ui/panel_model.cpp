@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "app/text/text.h"
 
-#include <cmath>
-
 #include "app/session/check.h"
 #include "ui/action.h"
 #include "ui/panels.h"

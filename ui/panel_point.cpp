@@ -34,10 +34,10 @@ void draw_figures(Frame& frame, const SurfacePoint& point) {
     draw_value(frame, "heat u", app::significant(*figures.heat, 4), "",
                "Of the heat step, scaled so that its largest value is 1.");
   }
-  draw_value(frame, "nearest vertex", exact(figures.nearest_vertex), "",
+  draw_value(frame, "nearest vertex", number_text(figures.nearest_vertex), "",
              "Its number in the file, from 0.");
   if (!point.is_vertex()) {
-    draw_value(frame, "face", exact(point.face), "", "Its number in the file, from 0.");
+    draw_value(frame, "face", number_text(point.face), "", "Its number in the file, from 0.");
     draw_value(frame, "barycentric",
                app::fixed(point.weights[0], 3) + "  " + app::fixed(point.weights[1], 3) + "  " +
                    app::fixed(point.weights[2], 3),

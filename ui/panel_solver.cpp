@@ -99,7 +99,7 @@ void draw_time(Frame& frame, const app::Setting& setting) {
   const TimeStep& step = frame.state().options.time_step;
   if (step.rule == TimeRule::kAbsolute) {
     draw_label(frame, "t", "Diffusion time, model units squared.");
-    if (const auto typed = draw_field(frame, "absolute", exact(step.absolute))) {
+    if (const auto typed = draw_field(frame, "absolute", number_text(step.absolute))) {
       frame.set("time-step", "absolute:" + *typed);
     }
   } else {

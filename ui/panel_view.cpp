@@ -36,7 +36,7 @@ std::optional<std::string> draw_pair(Frame& frame, const char* first_key, const 
 void draw_range(Frame& frame, const app::Setting& setting) {
   const app::PictureSettings& picture = frame.state().picture;
   const auto text = [](const std::optional<double>& value) {
-    return value ? exact(*value) : std::string();
+    return value ? number_text(*value) : std::string();
   };
   draw_setting_label(frame, setting);
   const auto typed = draw_pair(frame, "range min", text(picture.range_min), "range max",
@@ -47,7 +47,8 @@ void draw_range(Frame& frame, const app::Setting& setting) {
 void draw_spacing(Frame& frame, const app::Setting& setting) {
   const auto& spacing = frame.state().picture.line_spacing;
   draw_setting_label(frame, setting);
-  if (const auto typed = draw_field(frame, setting.name, spacing ? exact(*spacing) : "", "auto")) {
+  if (const auto typed =
+          draw_field(frame, setting.name, spacing ? number_text(*spacing) : "", "auto")) {
     frame.set(setting.name, typed->empty() ? "auto" : *typed);
   }
 }
@@ -67,7 +68,7 @@ void draw_peel(Frame& frame, const app::Setting& setting) {
   const std::string side = geotherm::to_text(peel.side);
   const auto sides = all_names<app::PeelSide>();
   if (const auto chosen = draw_choice(frame, setting.name, side, sides)) {
-    frame.set(setting.name, *chosen == "off" ? *chosen : *chosen + ":" + exact(peel.share));
+    frame.set(setting.name, *chosen == "off" ? *chosen : *chosen + ":" + number_text(peel.share));
   }
   if (peel.side == app::PeelSide::kOff) return;
   draw_label(frame, "peel at", setting.help);

@@ -311,7 +311,7 @@ std::optional<std::string> draw_slider_row(Frame& frame, std::string_view key, d
   frame.mark(std::string(key) + " slider");
   ImGui::SameLine(0, gap);
   ImGui::SetNextItemWidth(-FLT_MIN);
-  if (const auto typed = draw_field(frame, key, exact(current))) chosen = typed;
+  if (const auto typed = draw_field(frame, key, number_text(current))) chosen = typed;
   return chosen;
 }
 

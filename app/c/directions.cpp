@@ -37,11 +37,9 @@ void add_frame(const TangentFrame& frame, std::vector<double>& out) {
 }
 
 Result<SpreadOptions> spread_options(const geotherm_options* options) {
-  if (options == nullptr) return SpreadOptions{};
-  const auto given = object_of<Options>(options, "options");
-  if (!given) return given.error();
-  const std::lock_guard lock((*given)->lock);
-  const MethodOptions& asked = (*given)->state.options;
+  const auto state = state_of(options);
+  if (!state) return state.error();
+  const MethodOptions& asked = state->options;
   return SpreadOptions{asked.backend, asked.time_step.factor, asked.threads};
 }
 

@@ -4,7 +4,6 @@
 #include <atomic>
 #include <cstdint>
 #include <exception>
-#include <functional>
 #include <memory>
 #include <mutex>
 #include <new>
@@ -125,6 +124,15 @@ Result<std::shared_ptr<T>> object_of(const void* handle, const char* argument) {
                std::string(argument) + (handle == nullptr ? " is NULL"
                                         : found           ? " is a handle of another kind"
                                                           : " is no handle, or was freed")};
+}
+
+/// The state of options; the initial one for NULL.
+inline Result<ViewerState> state_of(const geotherm_options* options) {
+  if (options == nullptr) return app::initial_state();
+  const auto object = object_of<Options>(options, "options");
+  if (!object) return object.error();
+  const std::lock_guard lock((*object)->lock);
+  return (*object)->state;
 }
 
 /// Puts an object behind a handle that the caller gets.

@@ -77,12 +77,6 @@ app::Json features_json() {
           {"settings", settings_json()}};
 }
 
-app::ModelReading reading_of(const std::shared_ptr<Options>& options) {
-  if (!options) return {};
-  const std::lock_guard lock(options->lock);
-  return options->state.reading;
-}
-
 template <std::size_t N>
 std::vector<std::array<Index, N>> grouped_by(const std::vector<Index>& numbers) {
   std::vector<std::array<Index, N>> out(numbers.size() / N);
@@ -218,12 +212,6 @@ Result<Model> build(const geotherm_shape& shape, const Progress& progress) {
                       ", which is no geotherm_kind");
 }
 
-/// The options of a handle, none where there is NULL.
-Result<std::shared_ptr<Options>> options_or_none(const geotherm_options* options) {
-  if (options == nullptr) return std::shared_ptr<Options>();
-  return object_of<Options>(options, "options");
-}
-
 }  // namespace
 }  // namespace geotherm::c
 
@@ -284,10 +272,10 @@ geotherm_status geotherm_model_read(const char* path, const geotherm_options* op
   return guarded([&]() -> Result<void> {
     if (auto there = require(path, "path"); !there) return there;
     if (auto there = require(model, "model"); !there) return there;
-    const auto asked = options_or_none(options);
+    const auto asked = state_of(options);
     if (!asked) return asked.error();
     const Watched watched(watch);
-    auto read = app::load_model(path, reading_of(*asked), watched.progress());
+    auto read = app::load_model(path, asked->reading, watched.progress());
     if (!read) return read.error();
     hand_out(std::make_shared<const HeldModel>(*std::move(read)), model);
     return {};
@@ -299,13 +287,13 @@ geotherm_status geotherm_model_build(const geotherm_shape* shape, const geotherm
   return guarded([&]() -> Result<void> {
     if (auto there = require(shape, "shape"); !there) return there;
     if (auto there = require(model, "model"); !there) return there;
-    const auto asked = options_or_none(options);
+    const auto asked = state_of(options);
     if (!asked) return asked.error();
     const Watched watched(watch);
     auto built = build(*shape, watched.progress());
     if (!built) return built.error();
     built->name = "model";
-    if (const auto eps = reading_of(*asked).weld) {
+    if (const auto eps = asked->reading.weld) {
       if (auto done = app::weld_model(*eps, *built); !done) return done;
     }
     hand_out(std::make_shared<const HeldModel>(*std::move(built)), model);

@@ -2,7 +2,6 @@
 // Solvers, and distances from them.
 #include <algorithm>
 #include <chrono>
-#include <limits>
 #include <memory>
 #include <utility>
 
@@ -17,15 +16,6 @@ namespace geotherm::c {
 namespace {
 
 using app::Model;
-
-/// The state of options; the initial one for NULL.
-Result<ViewerState> state_of(const geotherm_options* options) {
-  if (options == nullptr) return app::initial_state();
-  const auto object = object_of<Options>(options, "options");
-  if (!object) return object.error();
-  const std::lock_guard lock((*object)->lock);
-  return (*object)->state;
-}
 
 Result<std::shared_ptr<const Solver>> made_ready(app::ModelSolver with, const ViewerState& asked,
                                                  const Progress& progress) {

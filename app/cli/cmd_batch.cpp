@@ -10,7 +10,6 @@
 #include <cerrno>
 #include <csignal>
 #include <filesystem>
-#include <optional>
 
 #include "app/cli/batch_work.h"
 #include "app/cli/commands.h"

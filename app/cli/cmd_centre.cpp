@@ -103,8 +103,8 @@ Result<void> place(const std::vector<Source>& named, CentreFigures& figures) {
 }
 
 Json centre_json(const TriangleMesh& mesh, const Centre& centre) {
-  const Vec3 at = position_at(mesh, centre.point);
-  return {{"point", point_json(centre.point)}, {"position", {at.x(), at.y(), at.z()}},
+  const Json at = vector_json(position_at(mesh, centre.point));
+  return {{"point", point_json(centre.point)}, {"position", at},
           {"energy", centre.energy},           {"residual", centre.residual},
           {"converged", centre.converged},     {"energies", centre.energies},
           {"distances", centre.distances}};
@@ -142,9 +142,7 @@ std::string centres_table(const CentreFigures& f) {
                   {"steps", kRight},
                   {"step left", kRight}});
   for (const Centre& centre : f.centres.found) {
-    const Vec3 at = position_at(*f.model.mesh, centre.point);
-    list.add_row({significant(at.x()) + ", " + significant(at.y()) + ", " + significant(at.z()),
-                  significant(centre.energy),
+    list.add_row({vector_text(position_at(*f.model.mesh, centre.point)), significant(centre.energy),
                   significant(*std::ranges::max_element(centre.distances)),
                   std::to_string(centre.energies.size() - 1), significant(centre.residual, 2)});
   }

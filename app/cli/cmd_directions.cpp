@@ -61,13 +61,11 @@ Result<DirectionWork> begin(const std::string& name, const ModelReading& reading
   return work;
 }
 
-Json axis_json(const Vec3& v) { return Json::array({v.x(), v.y(), v.z()}); }
-
 Json work_json(const DirectionWork& work, const char* stage, double ms) {
   const TangentFrame& f = work.frame;
-  Json frame = {{"e1", axis_json(f.e1)},
-                {"e2", axis_json(f.e2)},
-                {"normal", axis_json(f.normal)},
+  Json frame = {{"e1", vector_json(f.e1)},
+                {"e2", vector_json(f.e2)},
+                {"normal", vector_json(f.normal)},
                 {"angle", f.angle},
                 {"border", f.on_boundary}};
   if (f.first != kNoIndex) frame["first"] = f.first;
@@ -76,10 +74,6 @@ Json work_json(const DirectionWork& work, const char* stage, double ms) {
           {"frame", std::move(frame)},
           {"timing_ms", {{"load", work.model.load_ms}, {"setup", work.setup_ms}, {stage, ms}}},
           {"warnings", to_text(work.warnings)}};
-}
-
-std::string vector_text(const Vec3& v) {
-  return significant(v.x()) + ", " + significant(v.y()) + ", " + significant(v.z());
 }
 
 TextTable work_table(const DirectionWork& work) {

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <CLI/CLI.hpp>
 
-#include <optional>
 #include <sstream>
 #include <string>
 #include <vector>

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // `geotherm render A B ...`: several models in one picture.
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include "app/cli/render_work.h"

@@ -2,7 +2,6 @@
 // `geotherm solve` of one mesh that several ranks hold together (mpirun, backend petsc or
 // method wavefront).
 #include <algorithm>
-#include <cmath>
 #include <filesystem>
 #include <string>
 #include <vector>

@@ -315,10 +315,10 @@ Result<CommandOutput> run_transport(const SpreadArguments& arguments, const Prog
     Json json = spread_json(*work, *given, reached);
     json["components"] = work->spread.components;
     json["vectors"] = json["tangent_frames"]["e1"] = json["tangent_frames"]["e2"] = Json::array();
-    for (const Vec3& v : work->spread.vectors) json["vectors"].push_back({v.x(), v.y(), v.z()});
+    for (const Vec3& v : work->spread.vectors) json["vectors"].push_back(vector_json(v));
     for (const TangentFrame& frame : *frames) {
-      json["tangent_frames"]["e1"].push_back({frame.e1.x(), frame.e1.y(), frame.e1.z()});
-      json["tangent_frames"]["e2"].push_back({frame.e2.x(), frame.e2.y(), frame.e2.z()});
+      json["tangent_frames"]["e1"].push_back(vector_json(frame.e1));
+      json["tangent_frames"]["e2"].push_back(vector_json(frame.e2));
     }
     return json;
   };

@@ -4,7 +4,6 @@
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
-#include <cmath>
 
 #include "app/picture/picture_text.h"
 #include "app/session/model.h"

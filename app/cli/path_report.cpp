@@ -9,7 +9,7 @@ namespace geotherm::app {
 
 Json points_json(const TriangleMesh& mesh, const SurfacePath& path) {
   Json points = Json::array(), faces = Json::array(), weights = Json::array();
-  for (const Vec3& p : positions_of(mesh, path)) points.push_back({p.x(), p.y(), p.z()});
+  for (const Vec3& p : positions_of(mesh, path)) points.push_back(vector_json(p));
   for (const SurfacePoint& point : points_in_faces(mesh, path)) {
     faces.push_back(point.face);
     weights.push_back(point.weights);

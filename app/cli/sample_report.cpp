@@ -39,8 +39,6 @@ std::vector<double> cell_radii(const RelaxedPoints& relaxed) {
   return radii;
 }
 
-Json position_json(const Vec3& p) { return Json::array({p[0], p[1], p[2]}); }
-
 /// The point in a face.
 SurfacePoint in_face(const TriangleMesh& mesh, const SurfacePoint& point) {
   return points_in_faces(mesh, {{point}, {}, 0, false}).front();
@@ -53,7 +51,7 @@ Json relaxed_json(const SampleFigures& f) {
   Json points = Json::array();
   for (std::size_t i = 0; i < relaxed.points.size(); ++i) {
     points.push_back({{"point", point_json(relaxed.points[i])},
-                      {"position", position_json(position_at(mesh, relaxed.points[i]))},
+                      {"position", vector_json(position_at(mesh, relaxed.points[i]))},
                       {"cell", cells[i]}});
   }
   return {{"energies", relaxed.energies},
@@ -105,7 +103,7 @@ Json sample_json(const SampleFigures& f) {
       const SurfacePoint point = in_face(*f.model.mesh, f.relaxed->points[i]);
       samples.push_back({{"vertex", nullptr},
                          {"point", point_json(point)},
-                         {"position", position_json(position_at(*f.model.mesh, point))},
+                         {"position", vector_json(position_at(*f.model.mesh, point))},
                          {"distance", nullptr},
                          {"distance_back", nullptr},
                          {"radius", radii[i]},
@@ -114,7 +112,7 @@ Json sample_json(const SampleFigures& f) {
     }
     const FarthestSample& sample = f.points.samples[i];
     samples.push_back({{"vertex", sample.vertex},
-                       {"position", position_json(f.model.mesh->positions()[sample.vertex])},
+                       {"position", vector_json(f.model.mesh->positions()[sample.vertex])},
                        {"distance", sample.distance},
                        {"distance_back", sample.back},
                        {"radius", sample.radius},

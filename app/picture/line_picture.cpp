@@ -8,9 +8,7 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
-#include <functional>
 #include <span>
-#include <utility>
 #include <vector>
 
 #include "app/picture/line_sight.h"

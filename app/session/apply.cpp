@@ -4,6 +4,7 @@
 #include <functional>
 #include <limits>
 #include <memory>
+#include <type_traits>
 
 #include "app/picture/picture_text.h"
 #include "app/session/command.h"
@@ -57,16 +58,16 @@ class Applier {
     s_.max_distance = kUnreached;
     // Lengths in units of the old model are reset.
     s_.picture.range_min = s_.picture.range_max = s_.picture.line_spacing = std::nullopt;
-    return (*this)(command::Frame{});
+    (*this)(command::Frame{});
+    return {};
   }
 
-  Result<void> operator()(const command::Reset& /*c*/) {
+  void operator()(const command::Reset& /*c*/) {
     std::string model = std::move(s_.model);
     const ModelReading reading = s_.reading;
     s_ = initial_state();
     s_.model = std::move(model);
     s_.reading = reading;
-    return {};
   }
 
   Result<void> operator()(const command::Set& c) {
@@ -77,14 +78,10 @@ class Applier {
     return {};
   }
 
-  Result<void> operator()(const command::SetSources& c) {
-    s_.sources = c.sources;
-    return {};
-  }
+  void operator()(const command::SetSources& c) { s_.sources = c.sources; }
 
-  Result<void> operator()(const command::AddSources& c) {
+  void operator()(const command::AddSources& c) {
     s_.sources.insert(s_.sources.end(), c.sources.begin(), c.sources.end());
-    return {};
   }
 
   Result<void> operator()(const command::MoveSource& c) {
@@ -121,10 +118,7 @@ class Applier {
     return {};
   }
 
-  Result<void> operator()(const command::ClearSources& /*c*/) {
-    s_.sources.clear();
-    return {};
-  }
+  void operator()(const command::ClearSources& /*c*/) { s_.sources.clear(); }
 
   Result<void> operator()(const command::MoreSources& /*c*/) {
     if (const auto at = last_random(); at != s_.sources.rend()) {
@@ -152,7 +146,7 @@ class Applier {
     return {};
   }
 
-  Result<void> operator()(const command::ShuffleSources& /*c*/) {
+  void operator()(const command::ShuffleSources& /*c*/) {
     Index count = 0;
     std::uint64_t seed = 0;
     for (const SourceSpec& source : s_.sources) {
@@ -162,12 +156,10 @@ class Applier {
     }
     if (count == 0) count = std::max<Index>(1, static_cast<Index>(s_.sources.size()));
     s_.sources = {RandomVertices{count, seed + 1}};
-    return {};
   }
 
-  Result<void> operator()(const command::Sculpt& c) {
+  void operator()(const command::Sculpt& c) {
     s_.sculpture.strokes.push_back(std::make_shared<const Stroke>(c.stroke));
-    return {};
   }
 
   Result<void> operator()(const command::ExtendStroke& c) {
@@ -202,77 +194,61 @@ class Applier {
     return {};
   }
 
-  Result<void> operator()(const command::Loop& c) {
-    s_.timeline.loop = c.on;
-    return {};
-  }
+  void operator()(const command::Loop& c) { s_.timeline.loop = c.on; }
 
-  Result<void> operator()(const command::Orbit& c) {
+  void operator()(const command::Orbit& c) {
     constexpr double kTurn = 360;
     CameraSettings& camera = s_.picture.camera;
     camera.azimuth = std::fmod(camera.azimuth + c.azimuth, kTurn);
     if (camera.azimuth < 0) camera.azimuth += kTurn;
     camera.elevation = within(camera.elevation + c.elevation, 90);
-    return {};
   }
 
-  Result<void> operator()(const command::Zoom& c) {
+  void operator()(const command::Zoom& c) {
     CameraSettings& camera = s_.picture.camera;
     const double zoom = std::clamp(camera.zoom * c.factor, kMinZoom, kMaxZoom);
     const double factor = zoom / camera.zoom;
     camera.zoom = zoom;
     camera.pan_right = within(c.right + (camera.pan_right - c.right) * factor, kMaxPan);
     camera.pan_up = within(c.up + (camera.pan_up - c.up) * factor, kMaxPan);
-    return {};
   }
 
-  Result<void> operator()(const command::Pan& c) {
+  void operator()(const command::Pan& c) {
     CameraSettings& camera = s_.picture.camera;
     camera.pan_right = within(camera.pan_right + c.right, kMaxPan);
     camera.pan_up = within(camera.pan_up + c.up, kMaxPan);
-    return {};
   }
 
-  Result<void> operator()(const command::Centre& c) {
+  void operator()(const command::Centre& c) {
     CameraSettings& camera = s_.picture.camera;
     camera.centre = {c.x, c.y, c.z};
     camera.fit = PictureFit::kSphere;
     camera.pan_right = camera.pan_up = 0;
-    return {};
   }
 
-  Result<void> operator()(const command::Place& c) {
+  void operator()(const command::Place& c) {
     CameraSettings& camera = s_.picture.camera;
     camera.azimuth = c.azimuth;
     camera.elevation = c.elevation;
     camera.zoom = c.zoom;
     camera.pan_right = c.right;
     camera.pan_up = c.up;
-    return {};
   }
 
-  Result<void> operator()(const command::Frame& /*c*/) {
+  void operator()(const command::Frame& /*c*/) {
     CameraSettings& camera = s_.picture.camera;
     camera.zoom = 1;
     camera.pan_right = camera.pan_up = 0;
     camera.centre.reset();
-    return {};
   }
 
-  Result<void> operator()(const command::Rotate& c) {
-    s_.rotating = c.on;
-    return {};
-  }
+  void operator()(const command::Rotate& c) { s_.rotating = c.on; }
 
-  Result<void> operator()(const command::Keep& /*c*/) {
-    s_.kept = s_.options;
-    return {};
-  }
+  void operator()(const command::Keep& /*c*/) { s_.kept = s_.options; }
 
-  Result<void> operator()(const command::Forget& /*c*/) {
+  void operator()(const command::Forget& /*c*/) {
     s_.kept.reset();
     s_.shown = Shown::kA;
-    return {};
   }
 
   Result<void> operator()(const command::Swap& /*c*/) {
@@ -293,10 +269,7 @@ class Applier {
     return {};
   }
 
-  Result<void> operator()(const command::Pick& c) {
-    s_.picked = c.point;
-    return {};
-  }
+  void operator()(const command::Pick& c) { s_.picked = c.point; }
 
   Result<void> operator()(const command::Target& c) {
     if (c.point && !is_single_point(*c.point)) {
@@ -307,10 +280,7 @@ class Applier {
     return {};
   }
 
-  Result<void> operator()(const command::ShowCentre& c) {
-    s_.centre = c.kind;
-    return {};
-  }
+  void operator()(const command::ShowCentre& c) { s_.centre = c.kind; }
 
   Result<void> operator()(const command::ShowField& c) {
     if (s_.model.empty() && !c.path.empty()) {
@@ -321,23 +291,20 @@ class Applier {
     return {};
   }
 
-  Result<void> operator()(const command::MaxDistance& c) {
-    s_.max_distance = c.most;
-    return {};
-  }
+  void operator()(const command::MaxDistance& c) { s_.max_distance = c.most; }
 
   // Those that work on the program, not on its state.
-  Result<void> operator()(const command::Run& /*c*/) { return {}; }
-  Result<void> operator()(const command::Compare& /*c*/) { return {}; }
-  Result<void> operator()(const command::SavePicture& /*c*/) { return {}; }
-  Result<void> operator()(const command::SaveDistances& /*c*/) { return {}; }
-  Result<void> operator()(const command::SaveMesh& /*c*/) { return {}; }
-  Result<void> operator()(const command::SaveSession& /*c*/) { return {}; }
-  Result<void> operator()(const command::SaveLog& /*c*/) { return {}; }
-  Result<void> operator()(const command::SaveFigures& /*c*/) { return {}; }
-  Result<void> operator()(const command::Undo& /*c*/) { return {}; }
-  Result<void> operator()(const command::Redo& /*c*/) { return {}; }
-  Result<void> operator()(const command::Quit& /*c*/) { return {}; }
+  void operator()(const command::Run& /*c*/) {}
+  void operator()(const command::Compare& /*c*/) {}
+  void operator()(const command::SavePicture& /*c*/) {}
+  void operator()(const command::SaveDistances& /*c*/) {}
+  void operator()(const command::SaveMesh& /*c*/) {}
+  void operator()(const command::SaveSession& /*c*/) {}
+  void operator()(const command::SaveLog& /*c*/) {}
+  void operator()(const command::SaveFigures& /*c*/) {}
+  void operator()(const command::Undo& /*c*/) {}
+  void operator()(const command::Redo& /*c*/) {}
+  void operator()(const command::Quit& /*c*/) {}
 
  private:
   static Error nothing_kept() {
@@ -374,7 +341,16 @@ ViewerState initial_state() {
 
 Result<ViewerState> apply(const ViewerState& state, const Command& command) {
   ViewerState next = state;
-  if (auto done = std::visit(Applier(next), command); !done) return done.error();
+  Applier applier(next);
+  const auto run = [&applier](const auto& c) -> Result<void> {
+    if constexpr (std::is_void_v<decltype(applier(c))>) {
+      applier(c);
+      return {};
+    } else {
+      return applier(c);
+    }
+  };
+  if (auto done = std::visit(run, command); !done) return done.error();
   return next;
 }
 

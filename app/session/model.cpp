@@ -5,7 +5,6 @@
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
-#include <new>
 #include <system_error>
 #include <utility>
 #include <vector>

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The settings of pictures and of the camera.
 #include <algorithm>
-#include <utility>
 
 #include "app/picture/picture_text.h"
 #include "app/session/settings.h"

@@ -31,6 +31,11 @@ void add_domain(const Model& model, Json& json);
 /// Those and all others of the mesh report; of a space its own.
 Json full_model_json(const Model& model, const MeshReport& mesh);
 
+/// [x, y, z].
+inline Json vector_json(const Vec3& v) { return Json::array({v[0], v[1], v[2]}); }
+/// "x, y, z".
+std::string vector_text(const Vec3& v);
+
 /// A vertex id, {"face", "weights"}, or {"cell", "weights"}.
 Json point_json(const SurfacePoint& point);
 Json point_json(const CellPoint& point);

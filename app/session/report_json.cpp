@@ -17,8 +17,6 @@
 namespace geotherm::app {
 namespace {
 
-Json vector_json(const Vec3& v) { return Json::array({v[0], v[1], v[2]}); }
-
 /// Backends that failed, at the set-up and at the query.
 Json fallbacks_json(const HeatMethod& method, const DistanceResult& result) {
   Json json = Json::array();

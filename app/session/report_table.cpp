@@ -214,10 +214,14 @@ std::string solve_table(const Answer& f) {
   return table.text();
 }
 
+std::string vector_text(const Vec3& v) {
+  return significant(v[0]) + ", " + significant(v[1]) + ", " + significant(v[2]);
+}
+
 namespace {
 
-std::string vector_in_words(const Vec3& v) {
-  return "(" + significant(v[0]) + ", " + significant(v[1]) + ", " + significant(v[2]) + ")";
+std::string box_in_words(const MeshReport& mesh) {
+  return "(" + vector_text(mesh.box_min) + ") to (" + vector_text(mesh.box_max) + ")";
 }
 
 /// `cell`: "face", or what the vertices of a space belong to. `placed`: they lie somewhere.
@@ -238,7 +242,7 @@ std::string space_table(const Model& model, const MeshReport& mesh) {
   }
   table.add_row({"components", grouped(mesh.components)});
   if (space.has_places()) {
-    table.add_row({"box", vector_in_words(mesh.box_min) + " to " + vector_in_words(mesh.box_max)});
+    table.add_row({"box", box_in_words(mesh)});
   }
   table.add_row({"load", ms(model.load_ms)});
   return table.text();
@@ -280,7 +284,7 @@ std::string info_table(const Model& model, const MeshReport& mesh) {
   row("edge length", "mean " + significant(mesh.mean_edge_length) + ", from " +
                          significant(mesh.shortest_edge) + " to " + significant(mesh.longest_edge));
   row("area", significant(mesh.area));
-  row("box", vector_in_words(mesh.box_min) + " to " + vector_in_words(mesh.box_max));
+  row("box", box_in_words(mesh));
   row("smallest angle", significant(mesh.smallest_angle) + " degrees");
   row("mean quality", significant(mesh.mean_quality) + " (1: all equilateral)");
   const LaplacianChoice choice = auto_laplacian(mesh);

@@ -30,13 +30,7 @@ std::string grouped(std::int64_t number) {
   return digits;
 }
 
-std::string significant(double value, int digits) {
-  std::array<char, 64> buffer{};
-  const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value,
-                                 std::chars_format::general, digits)
-                       .ptr;
-  return {buffer.data(), end};
-}
+std::string significant(double value, int digits) { return rounded_text(value, digits); }
 
 std::string milliseconds(double value) {
   if (!std::isfinite(value)) return significant(value);

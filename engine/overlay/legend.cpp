@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <cmath>
-#include <string_view>
 
 #include "engine/overlay/colour_bar.h"
 #include "engine/overlay/overlay.h"

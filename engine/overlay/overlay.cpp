@@ -2,7 +2,6 @@
 #include "engine/overlay/overlay.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 
 namespace geotherm::engine {

@@ -55,10 +55,6 @@ glm::vec3 srgb_of(const glm::vec3& oklab) {
           encoded(-0.0041960863F * cube.x - 0.7034186147F * cube.y + 1.7076147010F * cube.z)};
 }
 
-float colour_distance(const glm::vec3& a, const glm::vec3& b) {
-  return glm::length(oklab_of(a) - oklab_of(b));
-}
-
 namespace {
 
 /// What stands before `separator`; `text` keeps what follows it.

@@ -17,9 +17,6 @@ glm::vec3 oklab_of(const glm::vec3& srgb);
 /// The result may lie outside of what screens show: below 0 or above 1.
 glm::vec3 srgb_of(const glm::vec3& oklab);
 
-/// How different two sRGB colours look: the distance of both in OKLab. Black and white: 1.
-float colour_distance(const glm::vec3& a, const glm::vec3& b);
-
 /// A colour map from published control points, which the asset of its name holds
 /// (assets/colour_maps/NAME.txt: what it is, its source, then one `r g b` a line, 0 to 255).
 struct ColourMap {
@@ -50,7 +47,7 @@ inline constexpr std::uint32_t kRegionColours = 48;
 /// as strong as a screen shows them. Any two of the first twelve differ by kDistinct or more.
 glm::vec3 region_colour(std::uint32_t i);
 
-/// Distance (colour_distance) of colours that nobody takes for each other.
+/// Distance in OKLab of colours that nobody takes for each other; of black and white: 1.
 inline constexpr float kDistinct = 0.13F;
 
 /// Entry i is region_colour(i % kRegionColours): what Paint::kRegions is painted from.

@@ -2,7 +2,6 @@
 #include "engine/scene/draw_mesh.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 
 namespace geotherm::engine {

@@ -81,7 +81,6 @@ class FrameRecorder {
  public:
   FrameRecorder(std::shared_ptr<Device::State> device, int samples);
 
-  int samples() const { return static_cast<int>(samples_); }
   void set_samples(int samples);  ///< 1 or 4
 
   /// Which of the two surfaces the calls below set, and record() draws.

@@ -4,12 +4,12 @@
 #include <dlfcn.h>
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <cstring>
 #include <string_view>
 #include <utility>
 
 #include "engine/vulkan/vulkan.h"
+#include "solver/core/text.h"
 
 namespace geotherm::engine {
 
@@ -247,12 +247,6 @@ Candidate examine(vk::raii::PhysicalDevice device, vk::Instance instance,
   return candidate;
 }
 
-std::string lower(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return text;
-}
-
 /// "llvmpipe (software); Old GPU (discrete GPU; refused: no dynamic rendering)".
 std::string in_words(const std::vector<Candidate>& candidates) {
   std::string text;
@@ -294,7 +288,7 @@ std::size_t choose_device(const std::vector<Candidate>& candidates, const std::s
   bool named = false;
   for (std::size_t i = 0; i < candidates.size(); ++i) {
     const DeviceInfo& info = candidates[i].info;
-    if (lower(info.name).find(lower(name)) == std::string::npos) continue;
+    if (lower_case(info.name).find(lower_case(name)) == std::string::npos) continue;
     named = true;
     if (info.lacks.empty()) return i;
   }

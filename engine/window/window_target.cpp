@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cassert>
 #include <glm/glm.hpp>
 #include <optional>
 #include <utility>

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "geotherm/accuracy.h"
 
-#include <array>
-#include <charconv>
 #include <cmath>
 #include <new>
 #include <utility>
@@ -102,11 +100,7 @@ std::string percent_text(double share) {
   const double percent = 100 * share;
   constexpr double kWhole = 99.5;  // from here on two digits are fewer than those before the point
   if (percent >= kWhole && percent < 1e6) return std::to_string(std::llround(percent)) + " %";
-  std::array<char, 32> buffer{};
-  const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), percent,
-                                 std::chars_format::general, 2)
-                       .ptr;
-  return std::string(buffer.data(), end) + " %";
+  return rounded_text(percent, 2) + " %";
 }
 
 Result<ReferenceAnswers> solve_reference(const std::shared_ptr<const TriangleMesh>& mesh,

@@ -10,7 +10,6 @@
 #include <fstream>
 #include <limits>
 #include <new>
-#include <sstream>
 #include <string>
 
 #ifdef __GLIBC__

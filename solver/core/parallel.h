@@ -135,14 +135,20 @@ void parallel_for(int threads, std::int64_t count, std::int64_t grain, Body&& bo
   }
 }
 
+/// Calls body(i) for all i in [0, count), an `I` each, in the same way.
+template <class I = std::int64_t, class Body>
+void parallel_each(int threads, std::int64_t count, std::int64_t grain, Body&& body) {
+  parallel_for(threads, count, grain, [&](std::int64_t begin, std::int64_t end) {
+    for (auto i = static_cast<I>(begin); i < static_cast<I>(end); ++i) body(i);
+  });
+}
+
 /// Calls body(piece, begin, end) on the pieces of [0, count) cut into `pieces`, on as many threads:
 /// for work in several passes over the same pieces. As parallel_for() otherwise.
 template <class Body>
 void for_pieces(int pieces, std::int64_t count, Body&& body) {
-  parallel_for(pieces, pieces, 1, [&](std::int64_t first, std::int64_t last) {
-    for (std::int64_t p = first; p < last; ++p) {
-      body(static_cast<int>(p), count * p / pieces, count * (p + 1) / pieces);
-    }
+  parallel_each(pieces, pieces, 1, [&](std::int64_t p) {
+    body(static_cast<int>(p), count * p / pieces, count * (p + 1) / pieces);
   });
 }
 
@@ -153,10 +159,8 @@ std::vector<Sum> sums_of_blocks(int threads, std::int64_t count, Part&& part) {
   constexpr std::int64_t kBlock = 8192;
   const std::int64_t blocks = (count + kBlock - 1) / kBlock;
   std::vector<Sum> sums(static_cast<std::size_t>(blocks));
-  parallel_for(threads, blocks, 2, [&](std::int64_t first, std::int64_t last) {
-    for (std::int64_t b = first; b < last; ++b) {
-      sums[static_cast<std::size_t>(b)] = part(b * kBlock, std::min(count, (b + 1) * kBlock));
-    }
+  parallel_each(threads, blocks, 2, [&](std::int64_t b) {
+    sums[static_cast<std::size_t>(b)] = part(b * kBlock, std::min(count, (b + 1) * kBlock));
   });
   return sums;
 }
@@ -166,10 +170,8 @@ std::vector<Sum> sums_of_blocks(int threads, std::int64_t count, Part&& part) {
 template <class T, class Part>
 std::vector<T> list_in_parallel(int threads, std::int64_t count, std::int64_t grain, Part&& part) {
   std::vector<std::vector<T>> lists(static_cast<std::size_t>((count + grain - 1) / grain));
-  parallel_for(threads, std::ssize(lists), 1, [&](std::int64_t first, std::int64_t last) {
-    for (std::int64_t b = first; b < last; ++b) {
-      part(b * grain, std::min(count, (b + 1) * grain), lists[static_cast<std::size_t>(b)]);
-    }
+  parallel_each(threads, std::ssize(lists), 1, [&](std::int64_t b) {
+    part(b * grain, std::min(count, (b + 1) * grain), lists[static_cast<std::size_t>(b)]);
   });
   std::vector<T> all;
   for (const std::vector<T>& list : lists) all.insert(all.end(), list.begin(), list.end());

@@ -12,10 +12,20 @@
 namespace geotherm {
 
 /// The shortest text that reads back as the same number; independent of the locale.
-inline std::string number_text(double value) {
+template <class Number>
+std::string number_text(Number value) {
   std::array<char, 32> buffer{};
   const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value).ptr;
   return {buffer.data(), end};
+}
+
+/// The text with small letters for A to Z.
+inline std::string lower_case(std::string_view text) {
+  std::string lower(text);
+  for (char& c : lower) {
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  }
+  return lower;
 }
 
 /// "1 byte", "2 bytes".
@@ -23,11 +33,11 @@ inline std::string counted_text(std::size_t number, const char* one, const char*
   return std::to_string(number) + ' ' + (number == 1 ? one : many);
 }
 
-/// The number to three significant digits, for messages.
-inline std::string rounded_text(double value) {
-  std::array<char, 32> buffer{};
+/// The number to so many significant digits, for messages.
+inline std::string rounded_text(double value, int digits = 3) {
+  std::array<char, 64> buffer{};
   const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value,
-                                 std::chars_format::general, 3)
+                                 std::chars_format::general, digits)
                        .ptr;
   return {buffer.data(), end};
 }
@@ -57,11 +67,7 @@ inline std::string file_extension(std::string_view path) {
   const std::size_t slash = path.rfind('/');
   if (slash != path.npos) path.remove_prefix(slash + 1);
   const std::size_t point = path.rfind('.');
-  std::string extension(point == path.npos ? "" : path.substr(point));
-  for (char& c : extension) {
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  }
-  return extension;
+  return lower_case(point == path.npos ? "" : path.substr(point));
 }
 
 /// The extension of the format in which a path is written: that of CSV for "-".

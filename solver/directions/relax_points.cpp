@@ -140,14 +140,12 @@ class Lloyd {
     std::vector<SurfacePoint> points = now.points;
     std::vector<double> lengths(points.size(), 0.0);
     std::vector<std::optional<Error>> errors(points.size());
-    parallel_for(threads_, std::ssize(points), 1, [&](std::int64_t begin, std::int64_t end) {
-      for (std::int64_t i = begin; i < end; ++i) {
-        auto moved = moved_point(points[i], cells[i], share, lengths[i]);
-        if (moved) {
-          points[i] = *moved;
-        } else if (moved.error().code != ErrorCode::kBadInput) {
-          errors[i] = moved.error();
-        }
+    parallel_each(threads_, std::ssize(points), 1, [&](std::int64_t i) {
+      auto moved = moved_point(points[i], cells[i], share, lengths[i]);
+      if (moved) {
+        points[i] = *moved;
+      } else if (moved.error().code != ErrorCode::kBadInput) {
+        errors[i] = moved.error();
       }
     });
     for (auto& error : errors) {

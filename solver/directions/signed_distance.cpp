@@ -2,7 +2,6 @@
 // Signed distance to curves that separate the surface.
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
 #include <new>
 #include <optional>

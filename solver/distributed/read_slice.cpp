@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <bit>
-#include <cmath>
 
 #include "solver/core/text.h"
 #include "solver/distributed/mesh_part.h"

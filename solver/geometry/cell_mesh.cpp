@@ -57,10 +57,8 @@ class CellMeshBuilder {
     if (!cells_.shares.empty()) out_.shares.resize(out_.corners.size());
     out_.measures.resize(count);
     out_.widths.resize(count);
-    parallel_for(threads_, std::ssize(out_.measures), kCellGrain,
-                 [&](std::int64_t begin, std::int64_t end) {
-                   for (std::int64_t c = begin; c < end; ++c) copy_cell(c, mean);
-                 });
+    parallel_each(threads_, std::ssize(out_.measures), kCellGrain,
+                  [&](std::int64_t c) { copy_cell(c, mean); });
   }
 
   void add_up_masses() {
@@ -94,11 +92,8 @@ class CellMeshBuilder {
     if (cells_.dimension == 2) out_.shared_mass.resize(rows.neighbor.size());
     out_.cells_at = CellTable(size_, out_.cell_count(), threads_,
                               [this](Index c) { return out_.corners_of(c); });
-    parallel_for(threads_, size_, kCellGrain, [&](std::int64_t begin, std::int64_t end) {
-      for (auto i = static_cast<Index>(begin); i < static_cast<Index>(end); ++i) {
-        add_up_row(i, out_.cells_at.at(i));
-      }
-    });
+    parallel_each<Index>(threads_, size_, kCellGrain,
+                         [&](Index i) { add_up_row(i, out_.cells_at.at(i)); });
   }
 
  private:

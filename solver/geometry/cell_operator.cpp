@@ -16,14 +16,12 @@ constexpr std::int64_t kCellRowGrain = 1 << 12;
 void apply_stiffness(const CellMatrix& matrix, std::span<const double> x, std::span<double> y,
                      int threads) {
   const double* const entries = matrix.entry.data();
-  parallel_for(threads, matrix.size(), kCellRowGrain, [&](std::int64_t begin, std::int64_t end) {
-    for (auto i = static_cast<Index>(begin); i < static_cast<Index>(end); ++i) {
-      double sum = 0;
-      for (std::int64_t e = matrix.row_start[i]; e < matrix.row_start[i + 1]; ++e) {
-        sum += entries[e] * (x[matrix.column[e]] - x[i]);
-      }
-      y[i] = sum;
+  parallel_each<Index>(threads, matrix.size(), kCellRowGrain, [&](Index i) {
+    double sum = 0;
+    for (std::int64_t e = matrix.row_start[i]; e < matrix.row_start[i + 1]; ++e) {
+      sum += entries[e] * (x[matrix.column[e]] - x[i]);
     }
+    y[i] = sum;
   });
 }
 
@@ -38,14 +36,12 @@ CellOperator::CellOperator(std::shared_ptr<const CellMatrix> mesh, double mass_f
       shares_mass_(mass_factor != 0 && !mesh_->shared_mass.empty()),
       threads_(threads) {
   diagonal_.resize(static_cast<std::size_t>(size()));
-  parallel_for(threads, size(), kCellRowGrain, [&](std::int64_t begin, std::int64_t end) {
-    for (auto i = static_cast<Index>(begin); i < static_cast<Index>(end); ++i) {
-      double sum = 0;
-      for (std::int64_t e = mesh_->row_start[i]; e < mesh_->row_start[i + 1]; ++e) {
-        sum += weight(i, e);
-      }
-      diagonal_[i] = mass_factor_ * mesh_->mass[i] + sum;
+  parallel_each<Index>(threads, size(), kCellRowGrain, [&](Index i) {
+    double sum = 0;
+    for (std::int64_t e = mesh_->row_start[i]; e < mesh_->row_start[i + 1]; ++e) {
+      sum += weight(i, e);
     }
+    diagonal_[i] = mass_factor_ * mesh_->mass[i] + sum;
   });
   for (const Index i : this->held()) diagonal_[i] = 1;
 }
@@ -105,14 +101,12 @@ void CellOperator::list_neighbors(Index i, std::vector<Index>& rows) const {
 std::vector<ColumnSet> CellOperator::columns_beside(std::span<const ColumnSet> sets, int threads,
                                                     std::vector<Index>& listed) const {
   std::vector<ColumnSet> out(sets.size());
-  parallel_for(threads, size(), kCellRowGrain, [&](std::int64_t begin, std::int64_t end) {
-    for (auto i = static_cast<Index>(begin); i < static_cast<Index>(end); ++i) {
-      unsigned some = 0;
-      for (std::int64_t e = mesh_->row_start[i]; e < mesh_->row_start[i + 1]; ++e) {
-        some |= sets[mesh_->column[e]];
-      }
-      out[i] = static_cast<ColumnSet>(some & ~unsigned{sets[i]});
+  parallel_each<Index>(threads, size(), kCellRowGrain, [&](Index i) {
+    unsigned some = 0;
+    for (std::int64_t e = mesh_->row_start[i]; e < mesh_->row_start[i + 1]; ++e) {
+      some |= sets[mesh_->column[e]];
     }
+    out[i] = static_cast<ColumnSet>(some & ~unsigned{sets[i]});
   });
   for (Index i = 0; i < size(); ++i) {
     if (out[i] != 0) listed.push_back(i);
@@ -152,17 +146,15 @@ const LowerMatrix& CellOperator::assembled() const {
   }
   assembled_.row.resize(static_cast<std::size_t>(assembled_.start.back()));
   assembled_.value.resize(assembled_.row.size());
-  parallel_for(threads_, size(), kCellRowGrain, [&](std::int64_t begin, std::int64_t end) {
-    for (auto j = static_cast<Index>(begin); j < static_cast<Index>(end); ++j) {
-      std::int64_t at = assembled_.start[j];
-      assembled_.row[at] = j;
-      assembled_.value[at++] = diagonal_[j];
-      for (std::int64_t e = mesh_->row_start[j + 1] - behind(j); e < mesh_->row_start[j + 1]; ++e) {
-        const Index i = mesh_->column[e];
-        const bool free = !is_held(i) && !is_held(j);
-        assembled_.row[at] = i;
-        assembled_.value[at++] = free ? -weight(j, e) : 0.0;
-      }
+  parallel_each<Index>(threads_, size(), kCellRowGrain, [&](Index j) {
+    std::int64_t at = assembled_.start[j];
+    assembled_.row[at] = j;
+    assembled_.value[at++] = diagonal_[j];
+    for (std::int64_t e = mesh_->row_start[j + 1] - behind(j); e < mesh_->row_start[j + 1]; ++e) {
+      const Index i = mesh_->column[e];
+      const bool free = !is_held(i) && !is_held(j);
+      assembled_.row[at] = i;
+      assembled_.value[at++] = free ? -weight(j, e) : 0.0;
     }
   });
   return assembled_;

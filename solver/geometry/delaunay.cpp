@@ -4,8 +4,6 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
-#include <span>
-#include <utility>
 
 #include "solver/core/parallel.h"
 #include "solver/geometry/edit.h"

@@ -39,15 +39,12 @@ FemOperator::FemOperator(std::shared_ptr<const OperatorMesh> mesh, double mass_f
 
 RawVector<double> FemOperator::side_weights(std::span<const char> wanted) const {
   RawVector<double> weight(3 * mesh_->faces.size());
-  parallel_for(
-      threads_, mesh_->face_count(), kMinRowsPerThread, [&](std::int64_t begin, std::int64_t end) {
-        for (auto f = static_cast<std::size_t>(begin); f < static_cast<std::size_t>(end); ++f) {
-          const auto [i, j, k] = mesh_->faces[f];
-          if (!wanted.empty() && (wanted[i] | wanted[j] | wanted[k]) == 0) continue;
-          const std::array<double, 3> w = weights(f);
-          std::ranges::copy(w, weight.data() + 3 * f);
-        }
-      });
+  parallel_each<std::size_t>(threads_, mesh_->face_count(), kMinRowsPerThread, [&](std::size_t f) {
+    const auto [i, j, k] = mesh_->faces[f];
+    if (!wanted.empty() && (wanted[i] | wanted[j] | wanted[k]) == 0) return;
+    const std::array<double, 3> w = weights(f);
+    std::ranges::copy(w, weight.data() + 3 * f);
+  });
   return weight;
 }
 
@@ -56,23 +53,21 @@ RawVector<double> FemOperator::side_weights(std::span<const char> wanted) const 
 void FemOperator::set_diagonal() {
   const bool lumped = !(consistent_share_.most() > 0);
   const RawVector<double> weight = lumped ? RawVector<double>() : side_weights();
-  parallel_for(threads_, size(), kMinRowsPerThread, [&](std::int64_t begin, std::int64_t end) {
-    for (auto i = static_cast<Index>(begin); i < static_cast<Index>(end); ++i) {
-      const double mass = mass_factor_ * mesh_->mass[i];
-      if (lumped) {
-        const double stiff = stiffness_factor_.of(mesh_->components.of[i]);
-        diagonal_[i] = mass + stiff * mesh_->stiffness_diagonal[i];
-        continue;
-      }
-      double sum = 0;
-      for (const Side corner : mesh_->corners.at(i)) {
-        const Face& face = mesh_->faces[face_of(corner)];
-        const int k = corner_of(corner), before = previous_corner(k);
-        if (face[next_corner(k)] != i) sum += weight[corner];
-        if (face[before] != i) sum += weight[corner - k + before];
-      }
-      diagonal_[i] = mass + sum;
+  parallel_each<Index>(threads_, size(), kMinRowsPerThread, [&](Index i) {
+    const double mass = mass_factor_ * mesh_->mass[i];
+    if (lumped) {
+      const double stiff = stiffness_factor_.of(mesh_->components.of[i]);
+      diagonal_[i] = mass + stiff * mesh_->stiffness_diagonal[i];
+      return;
     }
+    double sum = 0;
+    for (const Side corner : mesh_->corners.at(i)) {
+      const Face& face = mesh_->faces[face_of(corner)];
+      const int k = corner_of(corner), before = previous_corner(k);
+      if (face[next_corner(k)] != i) sum += weight[corner];
+      if (face[before] != i) sum += weight[corner - k + before];
+    }
+    diagonal_[i] = mass + sum;
   });
 }
 
@@ -240,10 +235,8 @@ const LowerMatrix& FemOperator::assembled_where(std::span<const char> wanted) co
   assembled_.row = mesh_->lower.row;
   const RawVector<double> weight = side_weights(wanted);
   assembled_.value.assign(assembled_.row.size(), 0.0);
-  parallel_for(threads_, size(), kMinRowsPerThread, [&](std::int64_t begin, std::int64_t end) {
-    for (auto j = static_cast<Index>(begin); j < static_cast<Index>(end); ++j) {
-      if (wanted.empty() || wanted[j] != 0) assemble_column(j, weight);
-    }
+  parallel_each<Index>(threads_, size(), kMinRowsPerThread, [&](Index j) {
+    if (wanted.empty() || wanted[j] != 0) assemble_column(j, weight);
   });
   has_all_ = wanted.empty();
   return assembled_;

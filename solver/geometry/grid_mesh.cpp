@@ -262,24 +262,22 @@ std::shared_ptr<const CellMatrix> build_grid_matrix(const GridLattice& lattice,
   }
   out->column.resize(static_cast<std::size_t>(out->row_start.back()));
   out->entry.resize(out->column.size());
-  parallel_for(threads, size, kGridRowGrain, [&](std::int64_t begin, std::int64_t end) {
-    for (std::int64_t i = begin; i < end; ++i) {
-      const Index v = pattern.vertices[order[i]];
-      std::array<std::pair<Index, double>, 6> row;
-      std::size_t count = 0;
-      for (const Index j : pattern.pattern.neighbors(order[i])) {
-        const Index w = pattern.vertices[j];
-        int e = 0;
-        while (lattice.stride(e) != std::abs(w - v)) ++e;
-        const double length = lattice.spacing(e) / unit;
-        row[count++] = {position[j],
-                        -relative * lattice.edge_weight(std::min(v, w), e) / (length * length)};
-      }
-      std::sort(row.begin(), row.begin() + static_cast<std::ptrdiff_t>(count));
-      for (std::size_t k = 0; k < count; ++k) {
-        out->column[static_cast<std::size_t>(out->row_start[i]) + k] = row[k].first;
-        out->entry[static_cast<std::size_t>(out->row_start[i]) + k] = row[k].second;
-      }
+  parallel_each(threads, size, kGridRowGrain, [&](std::int64_t i) {
+    const Index v = pattern.vertices[order[i]];
+    std::array<std::pair<Index, double>, 6> row;
+    std::size_t count = 0;
+    for (const Index j : pattern.pattern.neighbors(order[i])) {
+      const Index w = pattern.vertices[j];
+      int e = 0;
+      while (lattice.stride(e) != std::abs(w - v)) ++e;
+      const double length = lattice.spacing(e) / unit;
+      row[count++] = {position[j],
+                      -relative * lattice.edge_weight(std::min(v, w), e) / (length * length)};
+    }
+    std::sort(row.begin(), row.begin() + static_cast<std::ptrdiff_t>(count));
+    for (std::size_t k = 0; k < count; ++k) {
+      out->column[static_cast<std::size_t>(out->row_start[i]) + k] = row[k].first;
+      out->entry[static_cast<std::size_t>(out->row_start[i]) + k] = row[k].second;
     }
   });
   return out;

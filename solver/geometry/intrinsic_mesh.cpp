@@ -236,20 +236,16 @@ IntrinsicMesh build_intrinsic_mesh(std::span<const Vec3> positions, const CleanF
   mesh.lengths.resize(mesh.faces.size());
   mesh.twin.resize(3 * mesh.faces.size());
   const EdgeTable& edges = clean.edges;
-  parallel_for(
-      threads, edges.edge_count(), kMinEdgesPerThread, [&](std::int64_t begin, std::int64_t end) {
-        for (auto e = static_cast<Index>(begin); e < static_cast<Index>(end); ++e) {
-          // One value for all sides of an edge: they must agree to the last bit.
-          const double length =
-              ((positions[edges.low(e)] - positions[edges.high(e)]) / unit).norm();
-          const auto sides = edges.sides(e);
-          const bool twins = sides.size() == 2 && sides_agree(mesh.faces, sides[0], sides[1]);
-          for (std::size_t i = 0; i < sides.size(); ++i) {
-            mesh.lengths[face_of(sides[i])][corner_of(sides[i])] = length;
-            mesh.twin[sides[i]] = twins ? sides[1 - i] : kNoSide;
-          }
-        }
-      });
+  parallel_each<Index>(threads, edges.edge_count(), kMinEdgesPerThread, [&](Index e) {
+    // One value for all sides of an edge: they must agree to the last bit.
+    const double length = ((positions[edges.low(e)] - positions[edges.high(e)]) / unit).norm();
+    const auto sides = edges.sides(e);
+    const bool twins = sides.size() == 2 && sides_agree(mesh.faces, sides[0], sides[1]);
+    for (std::size_t i = 0; i < sides.size(); ++i) {
+      mesh.lengths[face_of(sides[i])][corner_of(sides[i])] = length;
+      mesh.twin[sides[i]] = twins ? sides[1 - i] : kNoSide;
+    }
+  });
   mollify(mesh, strictness, threads);
   return mesh;
 }

@@ -170,13 +170,8 @@ std::shared_ptr<KeptFaces> keep_faces(CleanFaces& clean, const TriangleMesh& mes
   auto kept = std::make_shared<KeptFaces>();
   kept->of_face.assign(static_cast<std::size_t>(mesh.face_count()), kNoIndex);
   kept->on_surface.resize(static_cast<std::size_t>(mesh.vertex_count()));
-  parallel_for(threads, static_cast<std::int64_t>(clean.original.size()), kMinFacesPerThread,
-               [&](std::int64_t begin, std::int64_t end) {
-                 for (std::int64_t c = begin; c < end; ++c) {
-                   const Index original = clean.original[static_cast<std::size_t>(c)];
-                   kept->of_face[original] = static_cast<Index>(c);
-                 }
-               });
+  parallel_each<Index>(threads, std::ssize(clean.original), kMinFacesPerThread,
+                       [&](Index c) { kept->of_face[clean.original[c]] = c; });
   for (Index v = 0; v < mesh.vertex_count(); ++v) {
     kept->on_surface[v] = clean.corners.at(v).empty() ? 0 : 1;
   }

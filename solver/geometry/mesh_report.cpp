@@ -6,7 +6,6 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <numeric>
 
 #include "geotherm/mesh_report.h"
 #include "solver/core/parallel.h"

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <span>
-#include <utility>
 #include <vector>
 
 #include "solver/core/memory.h"
@@ -175,10 +174,8 @@ class Builder {
 
   template <class Work>
   void for_each(std::size_t count, const Work& work) const {
-    parallel_for(threads_, static_cast<std::int64_t>(count), kMinItemsPerThread,
-                 [&](std::int64_t begin, std::int64_t end) {
-                   for (std::int64_t i = begin; i < end; ++i) work(static_cast<std::size_t>(i));
-                 });
+    parallel_each<std::size_t>(threads_, static_cast<std::int64_t>(count), kMinItemsPerThread,
+                               work);
   }
 
   const IntrinsicMesh& mesh_;

@@ -4,7 +4,6 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cstdint>
-#include <utility>
 
 #include "solver/core/parallel.h"
 #include "solver/core/sorting.h"

@@ -58,9 +58,8 @@ std::vector<RowRange> part_by_rows(Index size, RawVector<Index>& sorted, const L
 template <class Body>
 void for_ranges(const std::vector<RowRange>& ranges, int threads, std::int64_t grain,
                 const Body& body) {
-  parallel_for(threads, std::ssize(ranges), grain, [&](std::int64_t begin, std::int64_t end) {
-    for (std::int64_t r = begin; r < end; ++r) body(ranges[static_cast<std::size_t>(r)]);
-  });
+  parallel_each(threads, std::ssize(ranges), grain,
+                [&](std::int64_t r) { body(ranges[static_cast<std::size_t>(r)]); });
 }
 
 }  // namespace geotherm

@@ -146,10 +146,6 @@ bool holds_grid(const ModelInput& input) {
   return io::format_of(kGridFormats, input.file().extension()) != nullptr;
 }
 
-bool holds_grid(const std::string& path) {
-  return io::format_of(kGridFormats, io::model_extension(path)) != nullptr;
-}
-
 Result<GridFile> read_grid(const ModelInput& input, GridValues values) {
   const io::InputFile& file = input.file();
   const GridFormat* const format = io::format_of(kGridFormats, file.extension());

@@ -211,11 +211,8 @@ Block CellField::divergence(std::span<const SourceAnchors> anchors) const {
   });
   add_cells(mesh.crossing, mesh.cell_count(), b);
   if (!shortens_) return b;
-  parallel_for(work_.threads, columns, 1, [&](std::int64_t begin, std::int64_t end) {
-    for (std::int64_t c = begin; c < end; ++c) {
-      put_near(anchors[static_cast<std::size_t>(c)], c, b);
-    }
-  });
+  parallel_each(work_.threads, columns, 1,
+                [&](std::int64_t c) { put_near(anchors[static_cast<std::size_t>(c)], c, b); });
   return b;
 }
 

@@ -183,22 +183,17 @@ Block GridField::divergence(std::span<const SourceAnchors> anchors) const {
   // has its sum in one order, with any number of threads.
   const std::vector<Index> cuts = cut_layers(domain_.lattice->layer_count());
   for (const bool joins : {false, true}) {
-    parallel_for(work_.threads, std::ssize(cuts) - 1, 1, [&](std::int64_t begin, std::int64_t end) {
-      for (auto r = static_cast<std::size_t>(begin); r < static_cast<std::size_t>(end); ++r) {
-        const Index last = cuts[r + 1] - 1;
-        add_layers(joins ? last : cuts[r], joins ? last + 1 : last, b);
-      }
+    parallel_each<std::size_t>(work_.threads, std::ssize(cuts) - 1, 1, [&](std::size_t r) {
+      const Index last = cuts[r + 1] - 1;
+      add_layers(joins ? last : cuts[r], joins ? last + 1 : last, b);
     });
   }
   if (!shortens_) return b;
   // Each march holds some bytes of every sample.
   constexpr std::int64_t kMaxAtOnce = std::int64_t{1} << 22;
   const int at_once = b.rows() > kMaxAtOnce ? 1 : work_.threads;
-  parallel_for(at_once, b.cols(), 1, [&](std::int64_t begin, std::int64_t end) {
-    for (std::int64_t c = begin; c < end; ++c) {
-      put_near(anchors[static_cast<std::size_t>(c)], c, b);
-    }
-  });
+  parallel_each(at_once, b.cols(), 1,
+                [&](std::int64_t c) { put_near(anchors[static_cast<std::size_t>(c)], c, b); });
   return b;
 }
 
@@ -217,11 +212,9 @@ CellCounts GridField::inspect(std::span<const double> phi, Eigen::Index column,
     inspection.count(rows, of_cell(element, column) != Direction{}, sum);
     inspection.add_slope(slope, element.measure, sum);
   };
-  parallel_for(threads, std::ssize(sums), 1, [&](std::int64_t begin, std::int64_t end) {
-    for (auto r = static_cast<std::size_t>(begin); r < static_cast<std::size_t>(end); ++r) {
-      domain_.lattice->for_each_cell(cuts[r], cuts[r + 1],
-                                     [&](const GridCell& cell) { inspect_cell(cell, sums[r]); });
-    }
+  parallel_each<std::size_t>(threads, std::ssize(sums), 1, [&](std::size_t r) {
+    domain_.lattice->for_each_cell(cuts[r], cuts[r + 1],
+                                   [&](const GridCell& cell) { inspect_cell(cell, sums[r]); });
   });
   Sums all;
   for (const Sums& part : sums) all.add(part);

@@ -59,13 +59,11 @@ OperatorChanges find_changes(const Surface& earlier, const Surface& now, const N
   }
   const bool any_rose = std::ranges::find(out.rose, 1) != out.rose.end();
   constexpr std::int64_t kFacesAPiece = 1 << 14;
-  parallel_for(threads, mesh.face_count(), kFacesAPiece, [&](std::int64_t begin, std::int64_t end) {
-    for (auto f = static_cast<std::size_t>(begin); f < static_cast<std::size_t>(end); ++f) {
-      const auto rose = [&](Index v) { return out.rose[now.row_of_vertex[v]] != 0; };
-      const bool same = mesh.faces[f] == old.faces[f] && mesh.lengths[f] == old.lengths[f] &&
-                        !(any_rose && std::ranges::any_of(mesh.faces[f], rose));
-      out.faces[f] = same ? 0 : 1;
-    }
+  parallel_each<std::size_t>(threads, mesh.face_count(), kFacesAPiece, [&](std::size_t f) {
+    const auto rose = [&](Index v) { return out.rose[now.row_of_vertex[v]] != 0; };
+    const bool same = mesh.faces[f] == old.faces[f] && mesh.lengths[f] == old.lengths[f] &&
+                      !(any_rose && std::ranges::any_of(mesh.faces[f], rose));
+    out.faces[f] = same ? 0 : 1;
   });
   for_each_with_value(out.faces, char{1}, [&](Index f) {
     for (const Index v : mesh.faces[f]) out.rows[now.row_of_vertex[v]] = 1;

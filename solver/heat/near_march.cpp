@@ -2,7 +2,6 @@
 #include "solver/heat/near_march.h"
 
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <cmath>
 #include <cstdint>

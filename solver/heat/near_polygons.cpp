@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <cmath>
 #include <map>
 #include <unordered_set>
 #include <utility>

@@ -123,14 +123,12 @@ Result<std::vector<std::vector<NearVertex>>> near_fields(const QueryPipeline& p,
   if (!uses_what_is_known(p.options)) return near;
   near.resize(anchors.size());
   std::vector<Result<void>> done(anchors.size());
-  parallel_for(threads, std::ssize(anchors), 1, [&](std::int64_t begin, std::int64_t end) {
-    for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i) {
-      auto found = p.domain.near_field(anchors[i]);
-      if (found) {
-        near[i] = *std::move(found);
-      } else {
-        done[i] = found.error();
-      }
+  parallel_each<std::size_t>(threads, std::ssize(anchors), 1, [&](std::size_t i) {
+    auto found = p.domain.near_field(anchors[i]);
+    if (found) {
+      near[i] = *std::move(found);
+    } else {
+      done[i] = found.error();
     }
   });
   for (const Result<void>& each : done) {

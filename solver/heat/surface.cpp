@@ -2,7 +2,6 @@
 #include "solver/heat/surface.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "solver/accuracy/distance_bounds.h"
 #include "solver/core/parallel.h"

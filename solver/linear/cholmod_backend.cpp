@@ -5,7 +5,6 @@
 #include <cmath>
 #include <cstdint>
 #include <memory>
-#include <new>
 #include <numeric>
 #include <string>
 #include <utility>

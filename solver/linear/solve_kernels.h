@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstddef>
-#include <cstdint>
 
 #include "geotherm/types.h"
 #include "solver/core/processor.h"

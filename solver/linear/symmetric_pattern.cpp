@@ -24,18 +24,15 @@ std::uint64_t hash_of_columns(Index size, int threads, const RowsBelow& rows_bel
   constexpr std::int64_t kBlock = 8192;
   const std::int64_t blocks = (size + kBlock - 1) / kBlock;
   std::vector<std::uint64_t> parts(static_cast<std::size_t>(blocks), 0);
-  parallel_for(
-      threads, blocks, kMinEntriesPerThread / kBlock, [&](std::int64_t first, std::int64_t last) {
-        for (std::int64_t b = first; b < last; ++b) {
-          std::uint64_t& hash = parts[static_cast<std::size_t>(b)];
-          const auto end = static_cast<Index>(std::min<std::int64_t>(size, (b + 1) * kBlock));
-          for (auto j = static_cast<Index>(b * kBlock); j < end; ++j) {
-            const auto rows = rows_below(j);
-            mix(rows.size(), hash);
-            for (const Index i : rows) mix(static_cast<std::uint64_t>(i), hash);
-          }
-        }
-      });
+  parallel_each(threads, blocks, kMinEntriesPerThread / kBlock, [&](std::int64_t b) {
+    std::uint64_t& hash = parts[static_cast<std::size_t>(b)];
+    const auto end = static_cast<Index>(std::min<std::int64_t>(size, (b + 1) * kBlock));
+    for (auto j = static_cast<Index>(b * kBlock); j < end; ++j) {
+      const auto rows = rows_below(j);
+      mix(rows.size(), hash);
+      for (const Index i : rows) mix(static_cast<std::uint64_t>(i), hash);
+    }
+  });
   std::uint64_t hash = 0x9e3779b97f4a7c15ULL ^ static_cast<std::uint64_t>(size);
   for (const std::uint64_t part : parts) mix(part, hash);
   return hash;
@@ -115,12 +112,8 @@ LowerPattern lower_of(const SymmetricPattern& pattern, int threads) {
 
 std::vector<Index> inverse_permutation(std::span<const Index> order, int threads) {
   std::vector<Index> position(order.size());
-  const auto count = static_cast<std::int64_t>(order.size());
-  parallel_for(threads, count, kMinEntriesPerThread, [&](std::int64_t begin, std::int64_t end) {
-    for (std::int64_t k = begin; k < end; ++k) {
-      position[order[static_cast<std::size_t>(k)]] = static_cast<Index>(k);
-    }
-  });
+  parallel_each<Index>(threads, std::ssize(order), kMinEntriesPerThread,
+                       [&](Index k) { position[order[k]] = k; });
   return position;
 }
 

@@ -92,31 +92,26 @@ class SupernodalFactor final : public TriangularFactor {
 
   void forward(double* x, Eigen::Index stride, int columns, std::span<const Index> nodes,
                int /*threads*/) const override {
-    const auto run = solve_kernels(columns).panel_forward;
-    std::vector<double> scratch(static_cast<std::size_t>(structure_->tallest) * columns +
-                                kPanelPadding);
-    if (nodes.empty()) {
-      for (Index s = 0; s < structure_->count(); ++s) run(panel(s), x, stride, scratch.data());
-    } else {
-      for (const Index s : nodes) run(panel(s), x, stride, scratch.data());
-    }
+    run_panels(solve_kernels(columns).panel_forward, false, x, stride, columns, nodes);
   }
 
   void backward(double* x, Eigen::Index stride, int columns, std::span<const Index> nodes,
                 int /*threads*/) const override {
-    const auto run = solve_kernels(columns).panel_backward;
-    std::vector<double> scratch(static_cast<std::size_t>(structure_->tallest) * columns +
-                                kPanelPadding);
-    if (nodes.empty()) {
-      for (Index s = structure_->count(); s-- > 0;) run(panel(s), x, stride, scratch.data());
-    } else {
-      for (auto s = nodes.rbegin(); s != nodes.rend(); ++s) {
-        run(panel(*s), x, stride, scratch.data());
-      }
-    }
+    run_panels(solve_kernels(columns).panel_backward, true, x, stride, columns, nodes);
   }
 
  private:
+  void run_panels(decltype(SolveKernels::panel_forward) run, bool backwards, double* x,
+                  Eigen::Index stride, int columns, std::span<const Index> nodes) const {
+    std::vector<double> scratch(static_cast<std::size_t>(structure_->tallest) * columns +
+                                kPanelPadding);
+    const Index count = nodes.empty() ? structure_->count() : static_cast<Index>(nodes.size());
+    for (Index k = 0; k < count; ++k) {
+      const Index at = backwards ? count - 1 - k : k;
+      run(panel(nodes.empty() ? at : nodes[at]), x, stride, scratch.data());
+    }
+  }
+
   Panel panel(Index s) const {
     const SupernodalStructure& t = *structure_;
     const Index width = t.first[s + 1] - t.first[s];

@@ -2,7 +2,6 @@
 #include "geotherm/mesh.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <unordered_map>
 

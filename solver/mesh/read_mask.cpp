@@ -118,17 +118,11 @@ MaskNumbers numbers_in_ply(std::string_view bytes, const std::string& name) {
         skip_rows(body, element);
         continue;
       }
-      for (std::int64_t row = 0; row < element.count; ++row) {
-        body.now_reading(element, row);
-        for (std::size_t k = 0; k < element.properties.size(); ++k) {
-          if (static_cast<int>(k) == found) {
-            out.values.push_back(body.number(element.properties[k].type));
-          } else {
-            skip(body, element.properties[k]);
-          }
-        }
-      }
-      return;
+      return read_rows(body, element, [&](std::int64_t, std::size_t k) {
+        const PlyProperty& property = element.properties[k];
+        if (static_cast<int>(k) != found) return skip(body, property);
+        out.values.push_back(body.number(property.type));
+      });
     }
   });
   return out;

@@ -4,12 +4,9 @@
 #include <unistd.h>
 #include <zlib.h>
 
-#include <array>
 #include <cassert>
 #include <cerrno>
-#include <cmath>
 #include <filesystem>
-#include <limits>
 #include <system_error>
 #include <utility>
 

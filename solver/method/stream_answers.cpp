@@ -5,7 +5,6 @@
 #include <atomic>
 #include <exception>
 #include <new>
-#include <string>
 #include <utility>
 #include <vector>
 

@@ -2,7 +2,6 @@
 #include "geotherm/path.h"
 
 #include <algorithm>
-#include <utility>
 
 #include "solver/core/text.h"
 #include "solver/mesh/io/vtk_writer.h"

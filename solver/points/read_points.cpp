@@ -81,13 +81,4 @@ Result<bool> is_point_file(const ModelInput& input) {
   }
 }
 
-Result<bool> is_point_file(const std::string& path) {
-  const std::string extension = io::model_extension(path);
-  if (extension != kPly && !extension.empty()) {
-    return io::format_of(kPointFormats, extension) != nullptr;
-  }
-  const auto input = ModelInput::open(path);
-  return input ? is_point_file(*input) : input.error();
-}
-
 }  // namespace geotherm

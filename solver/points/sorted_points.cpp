@@ -51,15 +51,11 @@ SortedPoints sort_points(std::span<const Vec3> positions, int threads) {
   const std::size_t count = positions.size();
   std::vector<Vec3> scaled(count);
   std::vector<PlacedPoint> order(count);
-  parallel_for(threads, static_cast<std::int64_t>(count), kPointsPerThread,
-               [&](std::int64_t begin, std::int64_t end) {
-                 for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end);
-                      ++i) {
-                   // Plus 0 makes 0 of -0: the two are one place.
-                   scaled[i] = ((positions[i] - middle) / out.unit).array() + 0.0;
-                   order[i] = {place_on_curve(scaled[i]), static_cast<Index>(i)};
-                 }
-               });
+  parallel_each<std::size_t>(threads, std::ssize(positions), kPointsPerThread, [&](std::size_t i) {
+    // Plus 0 makes 0 of -0: the two are one place.
+    scaled[i] = ((positions[i] - middle) / out.unit).array() + 0.0;
+    order[i] = {place_on_curve(scaled[i]), static_cast<Index>(i)};
+  });
   std::ranges::sort(order, [&](const PlacedPoint& a, const PlacedPoint& b) {
     if (a.place != b.place) return a.place < b.place;
     const Vec3 &p = scaled[static_cast<std::size_t>(a.number)],

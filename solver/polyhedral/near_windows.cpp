@@ -2,7 +2,6 @@
 #include "solver/polyhedral/near_windows.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numbers>
 #include <span>

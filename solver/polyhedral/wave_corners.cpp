@@ -66,11 +66,8 @@ class FanMarker {
       for (const SideCode side : tables_.other_sides(e)) join_ends(tables_.sides[e][0], side);
     }
     fan_ = std::move(fans_).roots();
-    parallel_for(threads, tables_.vertex_count(), kMinCornersPerThread,
-                 [this](std::int64_t begin, std::int64_t end) {
-                   for (std::int64_t v = begin; v < end; ++v)
-                     mark(tables_.corners_at(static_cast<Index>(v)));
-                 });
+    parallel_each<Index>(threads, tables_.vertex_count(), kMinCornersPerThread,
+                         [this](Index v) { mark(tables_.corners_at(v)); });
   }
 
  private:
@@ -111,19 +108,15 @@ void list_corners(WaveTables& tables, int threads) {
 void mark_fans(WaveTables& tables, int threads) { FanMarker(tables).run(threads); }
 
 void mark_touching(WaveTables& tables, int threads, const IntrinsicSurface& base) {
-  parallel_for(threads, tables.vertex_count(), kMinCornersPerThread,
-               [&](std::int64_t begin, std::int64_t end) {
-                 for (std::int64_t v = begin; v < end; ++v) {
-                   const auto corners = tables.corners_at(static_cast<Index>(v));
-                   if (!fans_touch(tables, static_cast<Index>(v)) && !is_stretched(tables, corners))
-                     continue;
-                   set_bits(&WaveFace::touching, 0, corners, tables);
-                   SideCode* const first = tables.corners.data() + tables.corner_start[v];
-                   std::sort(first, first + corners.size(), [&](SideCode a, SideCode b) {
-                     return face_place(base, tables, a) < face_place(base, tables, b);
-                   });
-                 }
-               });
+  parallel_each<Index>(threads, tables.vertex_count(), kMinCornersPerThread, [&](Index v) {
+    const auto corners = tables.corners_at(v);
+    if (!fans_touch(tables, v) && !is_stretched(tables, corners)) return;
+    set_bits(&WaveFace::touching, 0, corners, tables);
+    SideCode* const first = tables.corners.data() + tables.corner_start[v];
+    std::sort(first, first + corners.size(), [&](SideCode a, SideCode b) {
+      return face_place(base, tables, a) < face_place(base, tables, b);
+    });
+  });
 }
 
 }  // namespace geotherm

@@ -77,13 +77,10 @@ Face ranks(const WaveTables& tables, const Face& face) {
 /// Faces by their lowest vertex, then by the others.
 RawVector<Index> face_order(const WaveTables& tables, const std::vector<Face>& faces, int threads) {
   RawVector<Face> sorted(faces.size());
-  parallel_for(threads, std::ssize(faces), kMinTableRowsPerThread,
-               [&](std::int64_t begin, std::int64_t end) {
-                 for (std::int64_t f = begin; f < end; ++f) {
-                   sorted[f] = ranks(tables, faces[f]);
-                   std::ranges::sort(sorted[f]);
-                 }
-               });
+  parallel_each(threads, std::ssize(faces), kMinTableRowsPerThread, [&](std::int64_t f) {
+    sorted[f] = ranks(tables, faces[f]);
+    std::ranges::sort(sorted[f]);
+  });
   std::vector<std::uint32_t> start;
   const auto emit = [&](std::size_t f, const auto& put) {
     put(sorted[f][0], static_cast<Index>(f));
@@ -93,12 +90,9 @@ RawVector<Index> face_order(const WaveTables& tables, const std::vector<Face>& f
   const auto before = [&sorted](Index f, Index g) {
     return sorted[f] != sorted[g] ? sorted[f] < sorted[g] : f < g;
   };
-  parallel_for(threads, tables.vertex_count(), kMinTableRowsPerThread,
-               [&](std::int64_t begin, std::int64_t end) {
-                 for (std::int64_t v = begin; v < end; ++v) {
-                   std::sort(order.begin() + start[v], order.begin() + start[v + 1], before);
-                 }
-               });
+  parallel_each(threads, tables.vertex_count(), kMinTableRowsPerThread, [&](std::int64_t v) {
+    std::sort(order.begin() + start[v], order.begin() + start[v + 1], before);
+  });
   return order;
 }
 
@@ -113,12 +107,8 @@ class FaceWriter {
     const std::int64_t count = mesh_.face_count();
     tables_.rank_of_face.resize(static_cast<std::size_t>(count));
     tables_.faces.resize(static_cast<std::size_t>(count));
-    parallel_for(threads_, count, kMinTableRowsPerThread,
-                 [&](std::int64_t begin, std::int64_t end) {
-                   for (std::int64_t i = begin; i < end; ++i) {
-                     tables_.rank_of_face[tables_.intrinsic_face[i]] = static_cast<Index>(i);
-                   }
-                 });
+    parallel_each<Index>(threads_, count, kMinTableRowsPerThread,
+                         [&](Index i) { tables_.rank_of_face[tables_.intrinsic_face[i]] = i; });
     const auto blocks = sums_of_blocks<Block>(
         threads_, count,
         [this](std::int64_t begin, std::int64_t end) { return write_faces(begin, end); });
@@ -131,15 +121,11 @@ class FaceWriter {
     sum_up(lengths, tables_);
     number_.resize(static_cast<std::size_t>(surface_.edge_count()));
     tables_.sides.resize(static_cast<std::size_t>(surface_.edge_count()));
-    parallel_for(threads_, std::ssize(blocks), 1, [&](std::int64_t begin, std::int64_t end) {
-      for (std::int64_t b = begin; b < end; ++b) {
-        number_edges(blocks[b].begin, blocks[b].end, first_edge[b]);
-      }
+    parallel_each(threads_, std::ssize(blocks), 1, [&](std::int64_t b) {
+      number_edges(blocks[b].begin, blocks[b].end, first_edge[b]);
     });
-    parallel_for(threads_, count, kMinTableRowsPerThread,
-                 [this](std::int64_t begin, std::int64_t end) {
-                   for (std::int64_t i = begin; i < end; ++i) name_edges(static_cast<Index>(i));
-                 });
+    parallel_each<Index>(threads_, count, kMinTableRowsPerThread,
+                         [this](Index i) { name_edges(i); });
     join_sides(surface_.base, threads_, tables_);
   }
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 

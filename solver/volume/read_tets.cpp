@@ -126,20 +126,12 @@ bool holds_tets(const ModelInput& input) {
   const TetFormat* const format = io::format_of(kTetFormats, file.extension());
   if (format == nullptr || format->begins.empty()) return format != nullptr;
   try {
-    std::string start = file.start(kLooked);
-    for (char& c : start) {
-      if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-    }
+    const std::string start = lower_case(file.start(kLooked));
     return start.find(format->begins) != start.npos;
   } catch (const io::ReadFailure&) {
   } catch (const std::bad_alloc&) {
   }
   return false;
-}
-
-bool holds_tets(const std::string& path) {
-  const auto input = ModelInput::open(path);
-  return input && holds_tets(*input);
 }
 
 }  // namespace geotherm

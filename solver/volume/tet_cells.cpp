@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <Eigen/LU>
 #include <algorithm>
-#include <cmath>
 #include <new>
 
 #include "geotherm/domains.h"

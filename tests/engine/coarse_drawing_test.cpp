@@ -30,7 +30,6 @@ Stage large_stage(const Device& device) {
 
 TEST_F(CoarseDrawing, LooksLikeTheSurfaceAndIsAnother) {
   Stage stage = large_stage(device());
-  ASSERT_TRUE(stage.renderer.has_coarse());
   const Image full = stage.draw();
   stage.renderer.set_coarse(true);
   const Image coarse = stage.draw();
@@ -62,7 +61,6 @@ TEST_F(CoarseDrawing, HasTheColoursOfFaces) {
 
 TEST_F(CoarseDrawing, LeavesSmallModelsAsTheyAre) {
   Stage stage(device(), model_of(torus(40, 20, 0.4)));
-  EXPECT_FALSE(stage.renderer.has_coarse());
   const Image full = stage.draw();
   stage.renderer.set_coarse(true);
   EXPECT_EQ(stage.draw().pixels, full.pixels);

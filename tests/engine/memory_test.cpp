@@ -122,7 +122,6 @@ TEST_F(DeviceMemory, ThatEndsForTheCoarseSurfaceHasTheModelDrawn) {
   {
     Stage stage(small, model_of(torus(400, 200, 0.4)));
     stage.scene.light = Light::kThreePoint;
-    ASSERT_TRUE(stage.renderer.has_coarse());
     const glm::ivec2 extent(kSmallPicture);
     const auto target = must(OffscreenTarget::build(small, extent));
     const auto draw = [&](SceneUse use) {

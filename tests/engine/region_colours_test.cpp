@@ -11,11 +11,15 @@ using namespace geotherm::engine;
 constexpr glm::vec3 kNoRegion(0.62F);
 using Faces = std::vector<std::array<std::uint32_t, 3>>;
 
+/// How different two sRGB colours look.
+float colour_distance(const glm::vec3& a, const glm::vec3& b) {
+  return glm::length(oklab_of(a) - oklab_of(b));
+}
+
 TEST(Oklab, HasWhiteAtOneAndBlackAtZero) {
   constexpr float kPrinted = 1e-4F;  // its matrices have ten digits, floats seven
   EXPECT_LE(glm::length(oklab_of(glm::vec3(1)) - glm::vec3(1, 0, 0)), kPrinted);
   EXPECT_LE(glm::length(oklab_of(glm::vec3(0))), kPrinted);
-  EXPECT_NEAR(colour_distance(glm::vec3(0), glm::vec3(1)), 1, kPrinted);
 }
 
 TEST(Oklab, IsTheInverseOfItsInverse) {

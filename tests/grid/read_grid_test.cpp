@@ -205,7 +205,7 @@ TEST_P(GridReader, ReadsSizesAndSpeeds) {
   const GridSample& sample = GetParam();
   const TemporaryDirectory directory;
   const std::string path = directory.write(sample.file, sample.bytes);
-  EXPECT_TRUE(holds_grid(path));
+  EXPECT_TRUE(holds_grid(*ModelInput::open(path)));
   const auto file = read_grid(path, sample.values);
   ASSERT_TRUE(file) << sentence(file.error());
   EXPECT_EQ(file->grid.size, sample.size);

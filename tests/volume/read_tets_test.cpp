@@ -23,7 +23,7 @@ class TetReader : public testing::TestWithParam<TetSample> {};
 TEST_P(TetReader, GivesTheVolumeAndSaysWhatItLeftOut) {
   const TemporaryDirectory directory;
   const std::string path = directory.write(GetParam().file, GetParam().bytes);
-  EXPECT_TRUE(holds_tets(path));
+  EXPECT_TRUE(holds_tets(*ModelInput::open(path)));
   const Result<TetFile> file = read_tets(path);
   ASSERT_TRUE(file) << sentence(file.error());
   expect_small_box(file->mesh);
@@ -138,7 +138,7 @@ TEST(TetReaderTetgen, TakesEitherFileAndEitherFirstNumber) {
     const std::string node = directory.write("a.1.node", node_text(first));
     const std::string ele = directory.write("a.1.ele", ele_text(first));
     for (const std::string& path : {node, ele}) {
-      EXPECT_TRUE(holds_tets(path));
+      EXPECT_TRUE(holds_tets(*ModelInput::open(path)));
       const Result<TetFile> file = read_tets(path);
       ASSERT_TRUE(file) << sentence(file.error());
       expect_small_box(file->mesh);
@@ -160,14 +160,14 @@ TEST(TetReaderTetgen, NamesTheFileThatIsMissingOrWrong) {
 
 TEST(TetSniffing, LooksAtTheBeginningWhereTheExtensionDoesNotTell) {
   const TemporaryDirectory directory;
-  EXPECT_FALSE(holds_tets(directory.write("a.msh", "(0 \"Fluent\")\n")));
-  EXPECT_FALSE(holds_tets(directory.write("a.vtk",
-                                          "# vtk DataFile Version 3.0\nt\nASCII\n"
-                                          "DATASET STRUCTURED_POINTS\n")));
-  EXPECT_FALSE(holds_tets(directory.write("a.vtu", "<VTKFile type=\"PolyData\">")));
-  EXPECT_FALSE(holds_tets(directory.write("a.obj", "v 0 0 0\n")));
-  EXPECT_FALSE(holds_tets(directory.path("not there.msh")));
-  EXPECT_TRUE(holds_tets(directory.write("a.mesh", "anything")));
+  const auto holds = [&](const char* name, const std::string& bytes) {
+    return holds_tets(*ModelInput::open(directory.write(name, bytes)));
+  };
+  EXPECT_FALSE(holds("a.msh", "(0 \"Fluent\")\n"));
+  EXPECT_FALSE(holds("a.vtk", "# vtk DataFile Version 3.0\nt\nASCII\nDATASET STRUCTURED_POINTS\n"));
+  EXPECT_FALSE(holds("a.vtu", "<VTKFile type=\"PolyData\">"));
+  EXPECT_FALSE(holds("a.obj", "v 0 0 0\n"));
+  EXPECT_TRUE(holds("a.mesh", "anything"));
 }
 
 INSTANTIATE_TEST_SUITE_P(Samples, TetReader, testing::ValuesIn(tet_samples()),

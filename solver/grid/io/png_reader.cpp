@@ -2,7 +2,6 @@
 #include <png.h>
 
 #include <array>
-#include <new>
 
 #include "solver/grid/io/raw_grid.h"
 #include "solver/mesh/io/input_file.h"

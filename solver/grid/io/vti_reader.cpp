@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // VTK's XML format for images: one array of values at the points.
 #include <cmath>
-#include <optional>
 #include <utility>
 
 #include "solver/core/text.h"

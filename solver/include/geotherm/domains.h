@@ -162,7 +162,6 @@ Result<GridFile> read_grid(const std::string& path, GridValues values = GridValu
 std::vector<std::string> grid_formats();
 /// Whether the format is one of those.
 bool holds_grid(const ModelInput& input);
-bool holds_grid(const std::string& path);  ///< by the extension of a path
 
 /// True when write_distances() of a grid knows the extension; otherwise the error (kNotAvailable)
 /// says which there are.
@@ -272,7 +271,6 @@ std::vector<std::string> tet_formats();
 /// unstructured grid). Whether there are tets among these only reading tells. False for a file that
 /// cannot be read. Cost: the first 4 KiB.
 bool holds_tets(const ModelInput& input);
-bool holds_tets(const std::string& path);  ///< of the file of a path
 
 /// True when write_tets() knows the extension of `path`; otherwise the error (kNotAvailable) says
 /// which there are.
@@ -392,9 +390,7 @@ Result<PointFile> read_points(const std::string& path);
 
 std::vector<std::string> point_formats();  ///< ply, xyz, pts, pcd
 /// Whether the file holds points without faces: by its extension, of a `.ply` by its header, which
-/// is all that is read; false where that is damaged. Errors: kBadFile (a `.ply` that cannot be
-/// opened).
+/// is all that is read; false where that is damaged. Errors: kOutOfMemory.
 Result<bool> is_point_file(const ModelInput& input);
-Result<bool> is_point_file(const std::string& path);  ///< of the file of a path
 
 }  // namespace geotherm

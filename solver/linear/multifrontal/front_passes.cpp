@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <cstring>
-#include <memory>
-#include <numeric>
 #include <vector>
 
 #include "solver/linear/multifrontal/front_factor.h"

@@ -123,27 +123,22 @@ Reaches find_reaches(const GraphPart& part, std::span<const Extent> extents, int
   const auto last = static_cast<float>(bins - 1);  // rounding leads beyond it
   const std::size_t size = part.position.size();
   Reaches out{std::vector<Bins>(size), std::vector<Bins>(size), std::vector<Bins>(size)};
-  parallel_for(threads, part.size(), kVerticesAPiece, [&](std::int64_t begin, std::int64_t end) {
-    for (std::int64_t i = begin; i < end; ++i) {
-      const Point& p = part.position[i];
-      for (std::size_t k = 0; k < kLanes; ++k) {
-        const float at = p[0] * direction[0][k] + p[1] * direction[1][k] + p[2] * direction[2][k];
-        out.own[i].lanes[k] =
-            static_cast<std::int16_t>(std::min(std::max(at - low[k], 0.0F), last));
-      }
+  parallel_each(threads, part.size(), kVerticesAPiece, [&](std::int64_t i) {
+    const Point& p = part.position[i];
+    for (std::size_t k = 0; k < kLanes; ++k) {
+      const float at = p[0] * direction[0][k] + p[1] * direction[1][k] + p[2] * direction[2][k];
+      out.own[i].lanes[k] = static_cast<std::int16_t>(std::min(std::max(at - low[k], 0.0F), last));
     }
   });
-  parallel_for(threads, part.size(), kVerticesAPiece, [&](std::int64_t begin, std::int64_t end) {
-    for (std::int64_t i = begin; i < end; ++i) {
-      Bins lowest = out.own[i], highest = lowest;
-      for (Index n = part.start[i]; n < part.start[i + 1]; ++n) {
-        const auto other = out.own[part.neighbor[n]].lanes;
-        lowest.lanes = lowest.lanes < other ? lowest.lanes : other;
-        highest.lanes = highest.lanes > other ? highest.lanes : other;
-      }
-      out.lowest[i] = lowest;
-      out.highest[i] = highest;
+  parallel_each(threads, part.size(), kVerticesAPiece, [&](std::int64_t i) {
+    Bins lowest = out.own[i], highest = lowest;
+    for (Index n = part.start[i]; n < part.start[i + 1]; ++n) {
+      const auto other = out.own[part.neighbor[n]].lanes;
+      lowest.lanes = lowest.lanes < other ? lowest.lanes : other;
+      highest.lanes = highest.lanes > other ? highest.lanes : other;
     }
+    out.lowest[i] = lowest;
+    out.highest[i] = highest;
   });
   return out;
 }
@@ -202,25 +197,15 @@ std::vector<Separator> cuts_along(std::span<const Extent> extents, const GraphPa
   const int bins = std::clamp(static_cast<int>(4 * std::sqrt(part.size())), 16, kMaxBins);
   const Reaches reaches = find_reaches(part, extents, bins, threads);
   std::vector<Plane> planes(extents.size());
-  parallel_for(part.size() > kVerticesAPiece ? threads : 1, std::ssize(planes), 1,
-               [&](std::int64_t begin, std::int64_t end) {
-                 for (auto lane = static_cast<std::size_t>(begin);
-                      lane < static_cast<std::size_t>(end); ++lane) {
-                   planes[lane] = sweep(reaches, lane, bins);
-                 }
-               });
+  parallel_each<std::size_t>(part.size() > kVerticesAPiece ? threads : 1, std::ssize(planes), 1,
+                             [&](std::size_t lane) { planes[lane] = sweep(reaches, lane, bins); });
   std::erase_if(
       planes, [](const Plane& plane) { return plane.cost == std::numeric_limits<double>::max(); });
   std::ranges::stable_sort(planes, {}, &Plane::cost);
   planes.resize(std::min(planes.size(), static_cast<std::size_t>(most)));
   std::vector<Separator> out(planes.size());
-  parallel_for(part.size() > kVerticesAPiece ? threads : 1, std::ssize(out), 1,
-               [&](std::int64_t begin, std::int64_t end) {
-                 for (auto k = static_cast<std::size_t>(begin); k < static_cast<std::size_t>(end);
-                      ++k) {
-                   out[k] = cut(reaches, planes[k]);
-                 }
-               });
+  parallel_each<std::size_t>(part.size() > kVerticesAPiece ? threads : 1, std::ssize(out), 1,
+                             [&](std::size_t k) { out[k] = cut(reaches, planes[k]); });
   return out;
 }
 

@@ -228,12 +228,9 @@ Separator find_separator(const GraphPart& part, int threads) {
   const int most = part.size() < kFewRows ? 1 : kCandidates;
   std::vector<Separator> candidates = plane_cuts(part, most, threads);
   if (candidates.empty()) candidates.push_back(layer_cut(part));
-  parallel_for(part.size() > kMinSeparatorVerticesForThreads ? threads : 1, std::ssize(candidates),
-               1, [&](std::int64_t begin, std::int64_t end) {
-                 for (; begin < end; ++begin) {
-                   refine(part, candidates[static_cast<std::size_t>(begin)]);
-                 }
-               });
+  parallel_each<std::size_t>(part.size() > kMinSeparatorVerticesForThreads ? threads : 1,
+                             std::ssize(candidates), 1,
+                             [&](std::size_t k) { refine(part, candidates[k]); });
   Separator best = std::move(*std::ranges::min_element(candidates, {}, cost_of));
   drop_unneeded(part, best);
   return best;

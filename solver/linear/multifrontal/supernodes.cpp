@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include <algorithm>
 #include <cstdint>
 
 #include "solver/linear/multifrontal/front_tree.h"

@@ -7,7 +7,6 @@
 #include <array>
 #include <cmath>
 #include <string>
-#include <utility>
 
 #include "solver/mesh/io/byte_order.h"
 #include "solver/mesh/io/input_file.h"

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 // Medit's .mesh (text) and .meshb (binary): keywords, each with a count and rows (Frey 2001).
-#include <array>
 #include <bit>
 #include <cmath>
 #include <string>

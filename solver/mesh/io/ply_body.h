@@ -8,7 +8,6 @@
 #include <string>
 #include <string_view>
 #include <type_traits>
-#include <utility>
 
 #include "solver/mesh/io/byte_order.h"
 #include "solver/mesh/io/input_file.h"
@@ -120,14 +119,20 @@ void skip(Body& body, const PlyProperty& property) {
   for (std::int64_t k = 0; k < count; ++k) body.number(property.type);
 }
 
-/// Goes past an element.
-template <class Body>
-void skip_rows(Body& body, const PlyElement& element) {
+/// Calls take(row, k) where property k of a row of an element is next, which it reads or skips.
+template <class Body, class Take>
+void read_rows(Body& body, const PlyElement& element, const Take& take) {
   if (element.properties.empty()) return;
   for (std::int64_t row = 0; row < element.count; ++row) {
     body.now_reading(element, row);
-    for (const PlyProperty& property : element.properties) skip(body, property);
+    for (std::size_t k = 0; k < element.properties.size(); ++k) take(row, k);
   }
+}
+
+/// Goes past an element.
+template <class Body>
+void skip_rows(Body& body, const PlyElement& element) {
+  read_rows(body, element, [&](std::int64_t, std::size_t k) { skip(body, element.properties[k]); });
 }
 
 /// Calls read(body) with the body that the format has, and returns what it returns.

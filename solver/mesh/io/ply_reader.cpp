@@ -31,17 +31,11 @@ void read_vertices(Body& body, const PlyElement& element, RawMesh& mesh) {
     axis_of[static_cast<std::size_t>(property)] = axis;
   }
   mesh.positions.resize(static_cast<std::size_t>(element.count));
-  for (std::int64_t row = 0; row < element.count; ++row) {
-    body.now_reading(element, row);
-    for (std::size_t k = 0; k < axis_of.size(); ++k) {
-      if (axis_of[k] < 0) {
-        skip(body, element.properties[k]);
-      } else {
-        mesh.positions[static_cast<std::size_t>(row)][axis_of[k]] =
-            body.coordinate(element.properties[k].type);
-      }
-    }
-  }
+  read_rows(body, element, [&](std::int64_t row, std::size_t k) {
+    const PlyProperty& property = element.properties[k];
+    if (axis_of[k] < 0) return skip(body, property);
+    mesh.positions[static_cast<std::size_t>(row)][axis_of[k]] = body.coordinate(property.type);
+  });
 }
 
 template <class Body>
@@ -93,25 +87,19 @@ void read_strips(Body& body, const PlyElement& element, std::int64_t vertex_coun
   constexpr std::int64_t kSeparator = -1;
   const std::size_t corners = corner_count_of(element);
   std::vector<Index> strip;
-  for (std::int64_t row = 0; row < element.count; ++row) {
-    body.now_reading(element, row);
-    for (std::size_t k = 0; k < element.properties.size(); ++k) {
-      const PlyProperty& property = element.properties[k];
-      if (k != corners) {
-        skip(body, property);
-        continue;
+  read_rows(body, element, [&](std::int64_t, std::size_t k) {
+    const PlyProperty& property = element.properties[k];
+    if (k != corners) return skip(body, property);
+    for (std::int64_t left = list_length(body, property); left > 0; --left) {
+      const std::int64_t corner = body.integer(property.type);
+      if (corner != kSeparator) {
+        strip.push_back(checked_corner(body, corner, vertex_count));
+        if (left > 1) continue;
       }
-      for (std::int64_t left = list_length(body, property); left > 0; --left) {
-        const std::int64_t corner = body.integer(property.type);
-        if (corner != kSeparator) {
-          strip.push_back(checked_corner(body, corner, vertex_count));
-          if (left > 1) continue;
-        }
-        add_strip(strip, mesh.faces);
-        strip.clear();
-      }
+      add_strip(strip, mesh.faces);
+      strip.clear();
     }
-  }
+  });
 }
 
 /// Throws where the file cannot be a mesh.

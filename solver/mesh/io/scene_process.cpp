@@ -18,11 +18,9 @@
 #include <filesystem>
 #include <fstream>
 #include <new>
-#include <span>
 #include <string>
 #include <system_error>
 #include <utility>
-#include <vector>
 
 #include "solver/core/memory.h"
 #include "solver/core/text.h"

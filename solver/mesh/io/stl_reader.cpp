@@ -5,8 +5,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <string>
-#include <utility>
-#include <vector>
 
 #include "solver/core/text.h"
 #include "solver/mesh/io/byte_order.h"

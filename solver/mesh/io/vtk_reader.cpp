@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "solver/core/text.h"
 #include "solver/mesh/io/mixed_scanner.h"
 #include "solver/mesh/io/number_type.h"
 #include "solver/mesh/io/raw_elements.h"
@@ -35,14 +36,6 @@ constexpr LegacyType kLegacyTypes[] = {
     {"float", NumberType::kFloat32},
     {"double", NumberType::kFloat64},
 };
-
-std::string lower_case(std::string_view word) {
-  std::string lower(word);
-  for (char& c : lower) {
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  }
-  return lower;
-}
 
 class LegacyVtk {
  public:

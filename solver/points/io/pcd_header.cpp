@@ -2,7 +2,6 @@
 #include "solver/points/io/pcd_header.h"
 
 #include <algorithm>
-#include <array>
 #include <optional>
 #include <utility>
 

@@ -9,7 +9,6 @@
 #include "solver/mesh/io/byte_order.h"
 #include "solver/mesh/io/input_file.h"
 #include "solver/mesh/io/text_scanner.h"
-#include "solver/points/io/lzf.h"
 #include "solver/points/io/pcd_header.h"
 #include "solver/points/io/raw_points.h"
 
@@ -116,6 +115,45 @@ RawPoints read_binary(const char* data, const PcdHeader& header, const PointFiel
     adder.add(values);
   }
   return adder.take();
+}
+
+/// The most bytes that LZF can make of one.
+constexpr std::size_t kMaxByLzf = 88;
+
+/// Unpacks bytes that LZF packed (Lehmann's LibLZF, the compression of .pcd): a control byte below
+/// 32 is followed by so many bytes and one more as they are; any other holds the length and, with
+/// the byte behind it, the distance of what is repeated. `size`: that of the answer, with `padding`
+/// zero bytes behind it. Returns nothing where the bytes are damaged or make another size. Throws
+/// std::bad_alloc. Cost: O(size).
+std::vector<char> unpack_lzf(std::string_view packed, std::size_t size, std::size_t padding) {
+  std::vector<char> out(size + padding, '\0');
+  std::size_t from = 0, to = 0;
+  const auto byte = [&](std::size_t at) { return static_cast<unsigned char>(packed[at]); };
+  while (from < packed.size()) {
+    const std::size_t control = byte(from++);
+    if (control < 32) {
+      const std::size_t length = control + 1;
+      if (length > packed.size() - from || length > size - to) return {};
+      packed.copy(out.data() + to, length, from);
+      from += length;
+      to += length;
+      continue;
+    }
+    constexpr std::size_t kLong = 7, kMin = 2;
+    std::size_t length = control >> 5;
+    if (length == kLong) {
+      if (from == packed.size()) return {};
+      length += byte(from++);
+    }
+    length += kMin;
+    if (from == packed.size()) return {};
+    const std::size_t distance = ((control & 31) << 8) + byte(from++) + 1;
+    if (distance > to || length > size - to) return {};
+    // One by one: what is repeated may reach into what is written.
+    for (std::size_t k = 0; k < length; ++k, ++to) out[to] = out[to - distance];
+  }
+  if (to != size) return {};
+  return out;
 }
 
 /// All values of a field stand together, packed by LZF as a whole.

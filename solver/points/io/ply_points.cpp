@@ -50,20 +50,18 @@ void read_points(Body& body, const PlyElement& element, const VertexColumns& col
   const auto count = static_cast<std::size_t>(element.count);
   out.positions.resize(count);
   if (columns.has_normals) out.normals.resize(count);
-  for (std::size_t row = 0; row < count; ++row) {
-    body.now_reading(element, static_cast<std::int64_t>(row));
-    for (std::size_t k = 0; k < columns.meaning.size(); ++k) {
-      const PlyProperty& property = element.properties[k];
-      const int meaning = columns.meaning[k];
-      if (meaning < 0) {
-        skip(body, property);
-      } else if (meaning < 3) {
-        out.positions[row][meaning] = body.coordinate(property.type);
-      } else {
-        out.normals[row][meaning - 3] = body.number(property.type);
-      }
+  read_rows(body, element, [&](std::int64_t row, std::size_t k) {
+    const PlyProperty& property = element.properties[k];
+    const int meaning = columns.meaning[k];
+    const auto i = static_cast<std::size_t>(row);
+    if (meaning < 0) {
+      skip(body, property);
+    } else if (meaning < 3) {
+      out.positions[i][meaning] = body.coordinate(property.type);
+    } else {
+      out.normals[i][meaning - 3] = body.number(property.type);
     }
-  }
+  });
 }
 
 template <class Body>
