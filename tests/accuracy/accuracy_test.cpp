@@ -153,9 +153,7 @@ TEST(AccuracyTest, WavesOnTheTriangulationOfHeatAreThoseOnTheirOwn) {
   Draft needles = jittered_plane(12, 0.45, 3);
   for (Vec3& p : needles.positions) p.x() *= 6;
   const MeshPtr mesh = finish(needles);
-  MethodOptions options;
-  options.laplacian = LaplacianKind::kIntrinsicDelaunay;
-  const Asked asked = ask(mesh, options, {7});
+  const Asked asked = ask(mesh, {}, {7});
   ASSERT_GT(asked.method->heat()->flips(), 0) << "there is something to share";
   ASSERT_TRUE(asked.method->heat()->delaunay_triangulation());
   const auto shared = solve_reference(mesh, MethodKind::kWavefront, asked.sources, 1,
@@ -181,9 +179,10 @@ TEST(AccuracyTest, WavesWalkOverInsertedVertices) {
   EXPECT_LE(error.max_of_range, kOfWaves);
 }
 
-TEST(AccuracyTest, ATriangulationThatIsNotDelaunayIsNotShared) {
+TEST(AccuracyTest, ATriangulationThatIsNotThatOfWavesIsNotShared) {
   const MeshPtr mesh = finish(jittered_plane(6, 0.45, 3));
-  for (const LaplacianKind kind : {LaplacianKind::kCotan, LaplacianKind::kTufted}) {
+  for (const LaplacianKind kind :
+       {LaplacianKind::kCotan, LaplacianKind::kIntrinsicDelaunay, LaplacianKind::kTufted}) {
     MethodOptions options;
     options.laplacian = kind;
     const auto method = build_method(mesh, options);
