@@ -54,8 +54,9 @@ NeedCounts count_needs(const MeshPart& part, const SharedComponents& components,
       count(std::ranges::count_if(needs.obtuse, [&](Side side) { return is_own(face_of(side)); }))};
 }
 
-/// Where kAuto would insert vertices in one process.
-void note_needs(double large, double obtuse, std::vector<Warning>& notes) {
+/// Where one process would insert vertices. Waves need none in large faces.
+void note_needs(double large, double obtuse, bool heat, std::vector<Warning>& notes) {
+  if (!heat) large = 0;
   if (large == 0 && obtuse == 0) return;
   std::string what;
   if (large > 0) {
@@ -68,10 +69,14 @@ void note_needs(double large, double obtuse, std::vector<Warning>& notes) {
                          "edges of the boundary lie") +
             " opposite an obtuse angle";
   }
-  notes.push_back({what + ": one process would insert vertices there, which ranks do not, and "
-                          "distances around them may be far off",
-                   {"start without mpirun where one machine holds the mesh, or use ",
-                    SettingHint{"method", {"wavefront"}}}});
+  Hint hint = {"start without mpirun where one machine holds the mesh"};
+  if (heat) {
+    hint.insert(hint.end(), {", or use ", SettingHint{"method", {"wavefront"}}});
+  }
+  notes.push_back({what + ": one process would insert vertices there, which ranks do not, and " +
+                       (heat ? "distances around them may be far off"
+                             : "distances behind them may be too short"),
+                   std::move(hint)});
 }
 
 }  // namespace
@@ -79,9 +84,8 @@ void note_needs(double large, double obtuse, std::vector<Warning>& notes) {
 std::vector<Warning> notes_of(const RankGroup& ranks, const MeshPart& part,
                               const SharedComponents& components, std::span<const MeshBlock> blocks,
                               const MethodOptions& options, double repeated) {
-  // Waves need neither more vertices nor a cover.
-  const bool as_one_would =
-      options.method != MethodKind::kHeat || options.laplacian != LaplacianKind::kAuto;
+  const bool heat = options.method == MethodKind::kHeat;
+  const bool automatic = options.laplacian == LaplacianKind::kAuto;
   double lengthened = 0, covers = 0, duplicates = 0;
   std::array<double, 2> needs{};
   for (const MeshBlock& block : blocks) {
@@ -91,7 +95,7 @@ std::vector<Warning> notes_of(const RankGroup& ranks, const MeshPart& part,
     const Index vertices = block.surface->mesh->vertex_count();
     if (!faces_that_need_cover(*block.surface->kept, vertices).empty()) covers = 1;
     if (block.surface->kept->duplicate > 0) duplicates = 1;
-    if (as_one_would) continue;
+    if (heat && !automatic) continue;
     const NeedCounts more = count_needs(part, components, block, options.threads);
     needs[0] += more.large;
     needs[1] += more.obtuse;
@@ -108,8 +112,8 @@ std::vector<Warning> notes_of(const RankGroup& ranks, const MeshPart& part,
                      rounded_text(lengthened) + "; distances across such a face may be too long"});
   }
   ranks.all_reduce(needs, RankGroup::Reduction::kSum);
-  note_needs(needs[0], needs[1], notes);
-  if (ranks.max(covers) > 0 && !as_one_would) {
+  note_needs(needs[0], needs[1], heat, notes);
+  if (ranks.max(covers) > 0 && heat && automatic) {  // waves need no cover
     notes.push_back(
         {"the surface is no oriented manifold everywhere: edges there are not flipped, "
          "where one process would take the tufted Laplacian"});
