@@ -189,7 +189,7 @@ Result<std::shared_ptr<const FastMarchingMethod>> FastMarchingMethod::build(
     std::shared_ptr<const WaveSurface> surface, int threads, const Progress& progress) try {
   const Stopwatch watch;
   if (!report(progress, "operators", 0.0)) return cancelled_error();
-  auto own = without_inserted(surface, progress);
+  auto own = without_inserted(surface, threads, progress);
   if (!own) return own.error();
   auto state = std::make_unique<State>(*std::move(own), threads);
   if (!report(progress, "operators", 1.0)) return cancelled_error();

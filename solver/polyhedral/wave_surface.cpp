@@ -241,9 +241,10 @@ Result<std::shared_ptr<const WaveSurface>> build_wave_surface(
 }
 
 Result<std::shared_ptr<const WaveSurface>> without_inserted(
-    std::shared_ptr<const WaveSurface> surface, const Progress& progress) {
+    std::shared_ptr<const WaveSurface> surface, int threads, const Progress& progress) {
   if (surface->base.refinement.points == 0) return surface;
-  return build_wave_surface(surface->base.mesh, RefineRule::kNever, progress);
+  return build_wave_surface(surface->base.mesh, RefineRule::kNever, progress,
+                            thread_count(threads));
 }
 
 Result<SourceSeeds> seed_sources(const WaveSurface& surface, const SourceSet& sources) {

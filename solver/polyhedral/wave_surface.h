@@ -63,7 +63,7 @@ Result<std::shared_ptr<const WaveSurface>> build_wave_surface(
 /// The surface, triangulated again where vertices were inserted. Errors: those of
 /// build_wave_surface().
 Result<std::shared_ptr<const WaveSurface>> without_inserted(
-    std::shared_ptr<const WaveSurface> surface, const Progress& progress);
+    std::shared_ptr<const WaveSurface> surface, int threads, const Progress& progress);
 
 /// build_wave_surface() on a given triangulation. Preconditions: it is Delaunay and, where
 /// distances are compared with those on the mesh, no tufted cover. Errors: kOutOfMemory,
