@@ -20,10 +20,13 @@ std::vector<Face> faces_of(const MeshFile& file) {
   return {file.mesh.faces().begin(), file.mesh.faces().end()};
 }
 
-class EveryFormat : public testing::TestWithParam<Sample> {};
+class EveryFormat : public testing::TestWithParam<Sample> {
+ protected:
+  static void expect_pyramid(const std::string& bytes);
+};
 
-TEST_P(EveryFormat, gives_the_same_mesh) {
-  const Result<MeshFile> file = read_bytes(GetParam().file, GetParam().bytes);
+void EveryFormat::expect_pyramid(const std::string& bytes) {
+  const Result<MeshFile> file = read_bytes(GetParam().file, bytes);
   ASSERT_TRUE(file) << file.error().message;
   EXPECT_EQ(file->notes, std::vector<std::string>());
   if (GetParam().file == "a.stl") {  // has triangles only; numbered by first appearance: 0 1 4 2 3
@@ -39,6 +42,18 @@ TEST_P(EveryFormat, gives_the_same_mesh) {
     EXPECT_EQ(file->polygons, 1);
     EXPECT_EQ(file->welded, 0);
   }
+}
+
+TEST_P(EveryFormat, gives_the_same_mesh) { expect_pyramid(GetParam().bytes); }
+
+TEST_P(EveryFormat, of_text_gives_the_same_mesh_behind_a_mark_of_utf8_and_with_cr_alone) {
+  std::string text = GetParam().bytes;
+  const auto is_text = [](char c) { return c == '\n' || (c >= ' ' && c <= '~'); };
+  if (!std::ranges::all_of(text, is_text)) return;
+  expect_pyramid("\xef\xbb\xbf" + text);
+  std::ranges::replace(text, '\n', '\r');
+  expect_pyramid(text);
+  expect_pyramid("\xef\xbb\xbf" + text);
 }
 
 INSTANTIATE_TEST_SUITE_P(Samples, EveryFormat, testing::ValuesIn(pyramid_samples()),

@@ -99,7 +99,6 @@ std::string_view format_by_content(std::string_view start, std::size_t size) {
   const std::string_view exact = format_beginning_as(start);
   if (!exact.empty()) return exact;
   if (is_meshb(start)) return "meshb";
-  if (start.starts_with("\xef\xbb\xbf")) start.remove_prefix(3);  // the mark of UTF-8
   start = without_comments(start);
   if (start.empty()) return {};
   if (start.front() == '<') return format_of_xml(start);

@@ -69,12 +69,8 @@ class ObjSource {
       const std::size_t to = std::min(limit + tail, size_);
       const char* const window = bytes(from, to, buffer);
       const char* const last = window + (to - from);
-      const char* begin = window;
-      if (i > 0) {
-        begin = line_start(window + (place - from), window, window + (limit - from));
-      } else if (std::string_view(window, last).starts_with("\xef\xbb\xbf")) {
-        begin += 3;  // a byte order mark that some editors write
-      }
+      const char* const begin =
+          i == 0 ? window : line_start(window + (place - from), window, window + (limit - from));
       if (begin == window + (limit - from)) return {};
       const char* const end =
           limit == size_ ? last : line_start(window + (limit - from), window, last);
