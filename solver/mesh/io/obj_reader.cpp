@@ -190,6 +190,7 @@ RawMesh read_pieces(ObjSource& source) {
   mesh.positions.resize(vertex_count);
   mesh.faces.resize(face_count);
   std::vector<std::size_t> bad_faces(chunks.size());
+  std::size_t left_out = 0;
   for_each_chunk(chunks.size(), [&](std::size_t i) {
     ObjChunk& chunk = chunks[i];
     std::ranges::copy(chunk.positions,
@@ -211,7 +212,9 @@ RawMesh read_pieces(ObjSource& source) {
     for (const Polygon& polygon : chunks[i].polygons) {
       mesh.polygons.push_back({face_starts[i] + polygon.first_face, polygon.face_count});
     }
+    left_out += chunks[i].left_out;
   }
+  note_left_out(left_out, mesh.notes);
   return mesh;
 }
 

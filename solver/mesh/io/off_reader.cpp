@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <string>
 
-#include "solver/core/text.h"
 #include "solver/mesh/io/input_file.h"
 #include "solver/mesh/io/raw_mesh.h"
 #include "solver/mesh/io/text_scanner.h"
@@ -52,7 +51,6 @@ RawMesh read_off(std::string_view text) {
     scanner.skip_line();
   }
   FanBuilder fan(mesh.faces);
-  std::size_t skipped = 0;
   for (std::size_t f = 0; f < face_count; ++f) {
     scanner.now_reading("face", static_cast<std::int64_t>(f) + 1,
                         static_cast<std::int64_t>(face_count));
@@ -69,14 +67,10 @@ RawMesh read_off(std::string_view text) {
       }
       fan.add(static_cast<Index>(corner));
     }
-    if (fan.corners() < 3) ++skipped;
     fan.end(mesh.polygons);
     scanner.skip_line();  // a colour
   }
-  if (skipped > 0) {
-    mesh.notes.push_back(counted_text(skipped, "face", "faces") + " with fewer than 3 corners " +
-                         (skipped == 1 ? "was" : "were") + " left out");
-  }
+  note_left_out(fan.left_out(), mesh.notes);
   if (!scanner.at_end()) {
     mesh.notes.emplace_back("what follows the last face in the file was ignored");
   }

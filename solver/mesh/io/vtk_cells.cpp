@@ -99,6 +99,7 @@ void add_vtk_cells(const VtkCells& cells, std::int64_t first, RawElements& raw) 
       fan.end(raw.polygons);
     }
   }
+  note_left_out(fan.left_out(), raw.notes);
 }
 
 }  // namespace geotherm::io
