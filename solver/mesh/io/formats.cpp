@@ -18,16 +18,13 @@ struct FileBeginning {
   std::string_view bytes, name;
 };
 constexpr FileBeginning kBeginnings[] = {
-    {"ply\n", "ply"},          {"ply\r", "ply"},
-    {"glTF", "glb"},           {"PK\x03\x04", "3mf"},
-    {"# vtk DataFile", "vtk"}, {"$MeshFormat", "msh"},
-    {"$NOD", "msh"},           {"MeshVersionFormatted", "mesh"},
-    {"\x93NUMPY", "npy"},      {"\x89PNG", "png"},
-    {"NRRD000", "nrrd"},       {"# .PCD", "pcd"},
-    {"LASF", "las"},           {"OFF", "off"},
-    {"COFF", "off"},           {"NOFF", "off"},
-    {"CNOFF", "off"},          {"STOFF", "off"},
-    {"solid", "stl"},          {"\xff\xff\xfe", "fsurf"},
+    {"ply\n", "ply"},      {"ply\r", "ply"},          {"glTF", "glb"},
+    {"PK\x03\x04", "3mf"}, {"# vtk DataFile", "vtk"}, {"$MeshFormat", "msh"},
+    {"$Comments", "msh"},  {"$NOD", "msh"},           {"MeshVersionFormatted", "mesh"},
+    {"\x93NUMPY", "npy"},  {"\x89PNG", "png"},        {"NRRD000", "nrrd"},
+    {"# .PCD", "pcd"},     {"LASF", "las"},           {"OFF", "off"},
+    {"COFF", "off"},       {"NOFF", "off"},           {"CNOFF", "off"},
+    {"STOFF", "off"},      {"solid", "stl"},          {"\xff\xff\xfe", "fsurf"},
 };
 
 bool is_binary_stl(std::string_view start, std::size_t size) {
