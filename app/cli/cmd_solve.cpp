@@ -85,8 +85,8 @@ void note_triangulation(const std::vector<std::string>& paths, Answer& figures) 
   if (file == paths.end() || domain_name(model) != "polygons") return;
   if (model.space->cell_count() == model.mesh->face_count()) return;  // all are triangles
   figures.warnings.push_back({one_line(*file) +
-                              " holds the triangles that the polygons are drawn " +
-                              "by: distances on these, read as a model, are others"});
+                              " holds the triangles that the polygons are drawn by: distances on "
+                              "these, read as a model, are others"});
 }
 
 bool has_several_sources(const Answer& figures) { return source_groups(figures.sources).count > 1; }

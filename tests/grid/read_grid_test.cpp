@@ -182,13 +182,6 @@ std::vector<GridSample> grid_samples() {
            swapped,
        {3, 2, 1},
        wide},
-      {"nrrd_capitals",
-       "a.nrrd",
-       "NRRD0004\nType: Double\nDimension: 2\nSizes: 3 2\nEndian: Big\nEncoding: RAW\nkinds: "
-       "Domain SPACE\n\n" +
-           swapped,
-       {3, 2, 1},
-       wide},
       {"vti_text", "a.vti", vti(kVtiArray), {3, 2, 1}, wide},
       {"vti_binary",
        "a.vti",
@@ -292,27 +285,6 @@ std::vector<GridDamage> grid_damages() {
        kNrrd + "encoding: raw\nspace directions: none (1,0)\n\n" + std::string(6, '\1'),
        "line 7: axis 0 of 3 values has no direction; a grid has one value a sample; save the "
        "brightness or one of them alone"},
-      {"nrrd_no_endian", "a.nrrd",
-       "NRRD0004\ntype: double\ndimension: 2\nsizes: 3 2\nencoding: raw\n\n" +
-           std::string(48, '\1'),
-       "the samples have 8 bytes each, and the header has no endian, the order of them; add the "
-       "line endian: little, or endian: big"},
-      {"nrrd_endian", "a.nrrd", kNrrd + "endian: middle\n\n",
-       "line 6: the endian \"middle\" is unknown; it is big or little"},
-      {"nrrd_no_dimension", "a.nrrd", "NRRD0004\ntype: uint8\nsizes: 3 2\n\n123456",
-       "line 3: there are 2 sizes, and the dimension is not given; give a size for each axis"},
-      {"nrrd_dimension", "a.nrrd", "NRRD0004\ntype: uint8\ndimension: 3\nsizes: 3 2\n\n123456",
-       "line 4: there are 2 sizes, and the dimension is 3; give a size for each axis"},
-      {"nrrd_spacings", "a.nrrd", kNrrd + "spacings: 0.5\n\n123456",
-       "line 6: there are 2 sizes, but this is said of 1 axis"},
-      {"nrrd_directions", "a.nrrd", kNrrd + "space directions: (1,0,0) (0,1,0) (0,0,1)\n\n123456",
-       "line 6: there are 2 sizes, but this is said of 3 axes"},
-      {"nrrd_elsewhere", "a.nhdr", kNrrd + "data file: /etc/passwd\n",
-       "line 6: the samples are in /etc/passwd, outside the folder of the header; move them beside "
-       "it, and name the file alone"},
-      {"nrrd_above", "a.nhdr", kNrrd + "data file: ../a.raw\n",
-       "line 6: the samples are in ../a.raw, outside the folder of the header; move them beside "
-       "it, and name the file alone"},
       {"nrrd_other", "a.nrrd", "hello\n", "line 1: a file of NRRD starts with NRRD000"},
       {"nrrd_encoding", "a.nrrd", kNrrd + "encoding: bzip2\n\n",
        "line 6: the encoding \"bzip2\" is not supported; save it raw or gzip"},
