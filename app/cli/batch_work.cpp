@@ -136,8 +136,11 @@ bool is_done(const BatchTask& task) {
       text_at(program, "command") != shell_command("geotherm", task.command)) {
     return false;
   }
+  // The report is written last: what is younger was changed after it.
+  const auto reported = fs::last_write_time(task.report, missing);
+  if (fs::last_write_time(task.output, missing) > reported) return false;
   const auto read = fs::last_write_time(task.model, missing);
-  return missing || read <= fs::last_write_time(task.report, missing);
+  return missing || read <= reported;
 }
 
 void remove_remains(const BatchTask& task) {

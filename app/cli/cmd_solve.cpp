@@ -78,6 +78,17 @@ bool needs_nearest(const std::vector<std::string>& paths) {
   return std::ranges::any_of(paths, holds_mesh);
 }
 
+/// That a file of polygons' distances has no polygons in it.
+void note_triangulation(const std::vector<std::string>& paths, Answer& figures) {
+  const auto file = std::ranges::find_if(paths, holds_mesh);
+  const Model& model = figures.model;
+  if (file == paths.end() || domain_name(model) != "polygons") return;
+  if (model.space->cell_count() == model.mesh->face_count()) return;  // all are triangles
+  figures.warnings.push_back({one_line(*file) +
+                              " holds the triangles that the polygons are drawn by: distances on "
+                              "these, read as a model, are others"});
+}
+
 bool has_several_sources(const Answer& figures) { return source_groups(figures.sources).count > 1; }
 
 }  // namespace
@@ -288,6 +299,7 @@ Result<CommandOutput> run_solve(const SolveArguments& arguments, const Drawing& 
   auto figures = solver.solve(options, *sources, {query, *check}, progress);
   if (!figures) return figures.error();
   note_unused_settings(arguments.settings, options, figures->warnings);
+  note_triangulation(arguments.outputs, *figures);
   const auto fields = make_fields(*wanted, *figures);
   if (!fields) return fields.error();
 

@@ -81,6 +81,12 @@ Result<std::string> quoted_word(std::string_view line, std::size_t& at) {
   if (at == line.size()) {
     return Error{ErrorCode::kBadInput, column_text(begin + 1) + "this quote is not closed"};
   }
+  // The system ends a path there, and what stands behind would decide what may be written.
+  if (text.find('\0') != text.npos) {
+    return Error{ErrorCode::kBadInput,
+                 column_text(begin + 1) + "a zero byte, \\x00, stands in no path and in no text",
+                 {"leave it out"}};
+  }
   ++at;
   if (at < line.size() && !is_blank(line[at])) {
     return Error{ErrorCode::kBadInput, column_text(at + 1) + "expected a blank after the quote"};

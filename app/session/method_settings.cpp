@@ -78,9 +78,10 @@ Result<Text> parse_backend(const Text& text) {
 Result<Constraint> parse_constraint_option(const Text& text) {
   auto parsed = parse_constraint(text);
   if (parsed) return parsed;
+  const bool pins = text.starts_with(to_text(ConstraintMode::kPinVertex));
   return with_hint(parsed.error(),
-                   {"write penalty:VALUE with a positive number, such as penalty:1e6, or "
-                    "pin-vertex:V with a vertex id"});
+                   {pins ? "write pin-vertex:V with a vertex id from 0, such as pin-vertex:17"
+                         : "write penalty:VALUE with a positive number, such as penalty:1e6"});
 }
 
 Result<TimeStep> parse_time_step_option(const Text& text, double factor) {

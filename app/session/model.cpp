@@ -135,7 +135,9 @@ Result<Model> load_model(const std::string& text, const ModelReading& reading,
   }
   if (!model || !reading.weld) return model;
   if (!report(progress, "welding", -1)) return cancelled_error();
-  if (auto done = weld_model(*reading.weld, *model); !done) return done.error();
+  if (auto done = weld_model(*reading.weld, *model); !done) {
+    return about(one_line(text), done.error());
+  }
   return model;
 }
 

@@ -163,8 +163,7 @@ class Resolver {
       if (gaps++ == 0) first_gap = i;
       for (std::size_t j = 1; j < path->size(); ++j) set_.add_edge((*path)[j - 1], (*path)[j]);
     }
-    // In a file a gap is a mistake as often as not; who writes or paints a curve means it.
-    if (gaps > 0 && !curve.lines.empty()) note_gaps(curve, gaps, first_gap);
+    if (gaps > 0) note_gaps(curve, gaps, first_gap);  // a mistake as often as not
     return {};
   }
 

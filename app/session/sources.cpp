@@ -63,6 +63,10 @@ Result<SourceSpec> parse_random(std::string_view text, const std::vector<std::st
   if (parts.size() < 2 || parts.size() > 3) return unread();
   RandomVertices random;
   const auto count = number_in<Index>(parts[1]);
+  if (const auto more = number_in<std::int64_t>(parts[1]); !count && more && *more > 0) {
+    return unreadable(quoted(text) + " asks for more vertices than a model can have",
+                      {"give at most " + std::to_string(std::numeric_limits<Index>::max())});
+  }
   if (!count) return unread();
   random.count = *count;
   if (parts.size() == 3) {
@@ -314,7 +318,6 @@ Result<std::vector<Source>> read_source_file(const std::string& path, bool curve
   }
   const std::string shown = one_line(path);
   std::string_view rest = file->bytes();
-  if (rest.starts_with("\xef\xbb\xbf")) rest.remove_prefix(3);
   std::vector<Source> sources;
   std::vector<int> lines;
   for (int number = 1; !rest.empty(); ++number) {

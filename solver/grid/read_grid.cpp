@@ -110,11 +110,17 @@ GridFile finish_grid(io::RawGrid raw, GridValues values) {
   return out;
 }
 
-/// The file beside the header that holds its samples.
-std::string data_path(const std::string& path, const std::string& data_file) {
-  const std::size_t slash = path.rfind('/');
-  if (data_file.starts_with('/') || slash == path.npos) return data_file;
-  return path.substr(0, slash + 1) + data_file;
+/// The file in the folder of the header that holds its samples. Throws ReadFailure.
+std::string data_path(const io::InputFile& header, const std::string& data_file) {
+  const std::string& path = header.path();
+  if (path.empty()) {
+    throw io::ReadFailure{"the samples are in a file beside it, " + io::printable(data_file) +
+                              ", and nothing is beside a stream",
+                          0,
+                          {},
+                          {"name the file of the header"}};
+  }
+  return path.substr(0, path.rfind('/') + 1) + data_file;
 }
 
 /// Throws ReadFailure and std::bad_alloc, or gives the error of the other file.
@@ -124,7 +130,7 @@ Result<io::RawGrid> read_nrrd(const io::InputFile& file, std::string_view bytes)
     return io::read_nrrd_data(header, bytes.substr(header.data_begins));
   }
   // The header says how it is packed.
-  const auto data = io::InputFile::open_as_is(data_path(file.path(), header.data_file));
+  const auto data = io::InputFile::open_as_is(data_path(file, header.data_file));
   if (!data) return data.error();
   return io::read_unchanged(*data, file.shown() + ": " + data->shown(), "grid",
                             [&]() -> Result<io::RawGrid> {

@@ -41,7 +41,7 @@ MaskText parse_mask_text(std::string text) {
 
 namespace {
 
-MaskNumbers numbers_in_text(std::string_view text) {
+MaskNumbers numbers_in_text(std::string_view text) try {
   MaskNumbers out;
   TextScanner scanner(text, '#');
   while (!scanner.at_end()) {
@@ -49,6 +49,9 @@ MaskNumbers numbers_in_text(std::string_view text) {
     out.values.push_back(scanner.coordinate());
   }
   return out;
+} catch (ReadFailure& failure) {
+  failure.hint = {"write numbers with blanks or ends of lines between them"};
+  throw;
 }
 
 /// A .label of FreeSurfer: a line of words, the number of vertices, and a line for each: its
@@ -179,7 +182,12 @@ Result<std::vector<char>> flags_of(const MaskNumbers& numbers, const MaskText& t
 
 Result<Mask> read_mask(const std::string& text, const TriangleMesh& mesh) {
   const io::MaskText what = io::parse_mask_text(text);
-  const auto file = io::InputFile::open_as_is(what.path);
+  if (what.path.empty()) {
+    return Error{ErrorCode::kBadInput,
+                 "the mask '" + io::printable(text) + "' names no file",
+                 {"write FILE, keep:FILE or faces:FILE"}};
+  }
+  const auto file = io::InputFile::open(what.path);
   if (!file) return file.error();
   return io::read_unchanged(*file, file->shown(), "mask", [&]() -> Result<Mask> {
     const io::FileBytes bytes(*file);

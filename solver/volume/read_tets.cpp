@@ -33,11 +33,14 @@ Result<TetFile> finish_tets(const std::string& name, io::RawElements raw) {
   const std::string others = text_of_others(raw);
   if (raw.tets.empty()) {
     // Where there are faces, it is a surface.
-    return Error{raw.faces.empty() ? ErrorCode::kBadFile : ErrorCode::kNotAvailable,
-                 name + ": the file has no tetrahedra with 4 corners, but " +
-                     std::to_string(raw.positions.size()) + " vertices" +
-                     (others.empty() ? "" : " and " + others),
-                 {"distances in a volume need tetrahedra"}};
+    return Error{
+        raw.faces.empty() ? ErrorCode::kBadFile : ErrorCode::kNotAvailable,
+        name + ": the file has no tetrahedra with 4 corners" +
+            (raw.faces.empty() ? " and no faces, but " : ", but ") +
+            std::to_string(raw.positions.size()) + " vertices" +
+            (others.empty() ? "" : " and " + others),
+        io::cure_of_others(others, raw.faces.empty() ? "distances need faces or tetrahedra"
+                                                     : "distances in a volume need tetrahedra")};
   }
   if (!others.empty()) {
     raw.notes.push_back("left out, being no tetrahedra with 4 corners: " + others);

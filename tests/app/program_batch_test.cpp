@@ -112,6 +112,13 @@ TEST_F(BatchProgram, WhatIsDoneIsDoneOnceUntilModelOrOptionsChange) {
   EXPECT_EQ(done(words), 0);
   fs::remove(folder.path("out/a.npy"));
   EXPECT_EQ(done(words), 1);
+  const auto whole = fs::file_size(folder.path("out/a.npy"));
+  fs::resize_file(folder.path("out/a.npy"), 100);
+  fs::last_write_time(folder.path("out/a.npy"),
+                      fs::file_time_type::clock::now() + std::chrono::seconds(1));
+  EXPECT_EQ(done(words), 1) << "cut off since";
+  EXPECT_EQ(fs::file_size(folder.path("out/a.npy")), whole);
+  EXPECT_EQ(done(words), 0);
   fs::last_write_time(folder.path("shapes/b.obj"),
                       fs::file_time_type::clock::now() + std::chrono::hours(1));
   EXPECT_EQ(done(words), 1);

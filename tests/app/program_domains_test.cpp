@@ -198,6 +198,10 @@ TEST_F(Program, FacesStayPolygonsWhereTheyAreAskedFor) {
   EXPECT_EQ(report["sources"][0], 15 * (kSquares + 1) + 15);
   EXPECT_EQ(report["error"]["reference"], "wavefront");
   EXPECT_LE(report["error"]["mean_relative"].get<double>(), 0.03);
+  const std::string triangles = "d.ply holds the triangles that the polygons are drawn by";
+  EXPECT_EQ(report["warnings"].dump().find(triangles), std::string::npos);
+  solve.insert(solve.end(), {"-o", "d.ply"});
+  EXPECT_NE(json(solve)["warnings"].dump().find(triangles), std::string::npos);
   EXPECT_NE(run({"info", "quads.obj", "--domain", "polygons"}).out.find("900 polygons"),
             std::string::npos);
   for (const auto& [arguments, says] :

@@ -96,16 +96,16 @@ TEST_F(Reading, SaysWhatDoesNotGoWithTheModel) {
     int code;
     std::string says;
   };
-  for (const Case& c :
-       std::vector<Case>{{{"info", "-"}, 1, "nothing to read"},
-                         {{"info", "-", "--format", "blend"}, 2, "obj, ply, off, stl"},
-                         {{"info", "-", "--format", "obj"}, 1, "nothing to read"},
-                         {{"info", "bunny", "--format", "obj"}, 2, "bundled"},
-                         {{"view", "-", "--headless"}, 2, "standard input"},
-                         {{"info", "cracked.obj", "--weld", "-1"}, 2, "--weld: '-1'"},
-                         {{"info", "cracked.obj", "--weld", "nan"}, 2, "--weld: 'nan'"},
-                         {{"info", "cracked.obj", "--weld", "9"}, 2, "every face collapses"},
-                         {{"solve", "cracked.obj", "-s", "0", "--refine", "7"}, 2, "0 to 6"}}) {
+  for (const Case& c : std::vector<Case>{
+           {{"info", "-"}, 1, "nothing to read"},
+           {{"info", "-", "--format", "blend"}, 2, "obj, ply, off, stl"},
+           {{"info", "-", "--format", "obj"}, 1, "nothing to read"},
+           {{"info", "bunny", "--format", "obj"}, 2, "bundled"},
+           {{"view", "-", "--headless"}, 2, "standard input"},
+           {{"info", "cracked.obj", "--weld", "-1"}, 2, "--weld: '-1'"},
+           {{"info", "cracked.obj", "--weld", "nan"}, 2, "--weld: 'nan'"},
+           {{"info", "cracked.obj", "--weld", "9"}, 2, "cracked.obj: every face collapses"},
+           {{"solve", "cracked.obj", "-s", "0", "--refine", "7"}, 2, "0 to 6"}}) {
     const ProgramRun result = run(c.words);
     EXPECT_EQ(result.code, c.code) << result.err;
     EXPECT_EQ(result.out, "");

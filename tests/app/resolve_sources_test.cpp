@@ -106,11 +106,18 @@ TEST(Sources, AlongACurveWithGapsAreJoinedAndThatIsSaid) {
   EXPECT_NE(line.warnings[0].message.find("vertex 1 to 4, line 3"), std::string::npos);
 }
 
-TEST(Sources, AlongACurveOfTextAreJoinedWithoutAWord) {
+TEST(Sources, AlongACurveOfTextWithGapsAreJoinedAndThatIsSaid) {
   const auto line = resolve(grid(), {"curve:0,1,4"});
   ASSERT_TRUE(line);
   EXPECT_EQ(line->set.edges, (std::vector<std::array<Index, 2>>{{0, 1}, {1, 2}, {2, 3}, {3, 4}}));
-  EXPECT_TRUE(line->warnings.empty());
+  ASSERT_EQ(line->warnings.size(), 1U);
+  EXPECT_EQ(
+      line->warnings[0].message,
+      "-s curve:0,1,4: 1 of 2 steps of the curve is no mesh edge and became the shortest path "
+      "along edges (vertex 1 to 4, number 3 of the curve)");
+  const auto edges = resolve(grid(), {"curve:0,1,2"});
+  ASSERT_TRUE(edges);
+  EXPECT_TRUE(edges->warnings.empty());
   const auto point = resolve(grid(), {"curve:4"});
   ASSERT_TRUE(point);
   EXPECT_EQ(vertices_of(point->set), std::vector<Index>{4});

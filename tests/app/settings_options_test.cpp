@@ -117,5 +117,15 @@ TEST(SettingsOptions, AreBlamedByTheirName) {
   EXPECT_EQ(state.error().message.find("--heat: "), 0U) << state.error().message;
 }
 
+TEST(SettingsOptions, OfAConstraintAdviseTheOneThatWasMeant) {
+  SettingArguments arguments;
+  EXPECT_EQ(sentence(typed({"--constraint", "pin-vertex:nan"}, arguments).error()),
+            "--constraint: 'nan' is no number for the pinned vertex; write pin-vertex:V with a "
+            "vertex id from 0, such as pin-vertex:17");
+  SettingArguments others;
+  EXPECT_NE(sentence(typed({"--constraint", "penalty:x"}, others).error()).find("penalty:1e6"),
+            std::string::npos);
+}
+
 }  // namespace
 }  // namespace geotherm::test

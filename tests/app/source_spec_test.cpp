@@ -124,6 +124,12 @@ INSTANTIATE_TEST_SUITE_P(
                     "xyz:1:2", "xyz:1:2:3:4", "xyz:1:2:inf", "xyz:1,5:2:3", "xyz: 1:2:3", "curve",
                     "curve:", "curve:1,", "curve:1,,2", "curve:1,-2", "curve:1:2", "curve:x"));
 
+TEST(SourceText, OfMoreRandomVerticesThanThereCanBeSaysTheMost) {
+  EXPECT_EQ(sentence(parse_source("random:99999999999999").error()),
+            "'random:99999999999999' asks for more vertices than a model can have; give at most "
+            "2147483647");
+}
+
 class SourceFile : public testing::Test {
  protected:
   Result<std::vector<Source>> read(std::string_view text, bool curve = false) {
@@ -141,6 +147,13 @@ TEST_F(SourceFile, HoldsIdsAndPointsBlankLinesAndComments) {
   EXPECT_EQ(std::get<SpacePoint>((*sources)[4].spec).position, Vec3(1, 2.5, -3));
   EXPECT_TRUE((*sources)[1].where.ends_with("s.txt: line 4"));
   EXPECT_EQ((*sources)[1].blame, ErrorCode::kBadFile);
+}
+
+TEST_F(SourceFile, HasALineForEachCr) {
+  const auto sources = read("5\r6\r7\r");
+  ASSERT_TRUE(sources) << sources.error().message;
+  ASSERT_EQ(sources->size(), 3U);
+  EXPECT_EQ(std::get<VertexList>((*sources)[2].spec).vertices, std::vector<Index>{7});
 }
 
 TEST_F(SourceFile, ThatIsACurveIsOnePolyline) {

@@ -291,7 +291,7 @@ std::vector<GridDamage> grid_damages() {
       {"nrrd_turned", "a.nrrd", kNrrd + "encoding: raw\nspace directions: (1,1) (0,1)\n\n",
        "line 7: the axes are not those of space; save it along the axes, or with spacings"},
       {"nrrd_gzip_short", "a.nrrd",
-       "NRRD0004\ntype: double\ndimension: 2\nsizes: 3000 2000\nencoding: gzip\n\nabc",
+       "NRRD0004\ntype: double\ndimension: 2\nsizes: 3000 2000\nendian: big\nencoding: gzip\n\nabc",
        "there are to be 48000000 bytes, but only 3 compressed ones follow"},
       {"nrrd_text_short", "a.nrrd", kNrrd + "encoding: text\n\n1 2",
        "there are to be 6 samples, but only 3 bytes follow"},

@@ -78,6 +78,10 @@ TEST(Masks, AreReadFromEveryFormat) {
             (std::vector<char>{0, 0, 1, 0, 0}));
   const TemporaryDirectory folder;
   folder.write("faces.txt", "0 1 0 0\n");
+  folder.write("marked.txt",
+               "\xef\xbb\xbf"
+               "0\r1\r0\r0\r0");
+  EXPECT_EQ(vertices_out(folder.path("marked.txt")), (std::vector<char>{0, 1, 0, 0, 0}));
   const auto faces = read_mask(folder.path("faces.txt"), pyramid());
   ASSERT_TRUE(faces);
   EXPECT_EQ(faces->faces, (std::vector<char>{0, 1, 0, 0}));
@@ -91,6 +95,13 @@ TEST(Masks, OfAnotherMeshAreRefused) {
   EXPECT_NE(refusal(folder.path("far.txt")).find("number 2 of the mask is 5"), std::string::npos);
   folder.write("half.txt", "0 1.5\n");
   EXPECT_NE(refusal(folder.path("half.txt")).find("is 1.5"), std::string::npos);
+  EXPECT_EQ(sentence(read_mask("keep:", pyramid()).error()),
+            "the mask 'keep:' names no file; write FILE, keep:FILE or faces:FILE");
+  folder.write("comma.txt", "5,6\n");
+  EXPECT_EQ(sentence(read_mask(folder.path("comma.txt"), pyramid()).error()),
+            folder.path("comma.txt") +
+                ": line 1: \"5,6\" is not a number in number 1; write numbers with blanks or ends "
+                "of lines between them");
   EXPECT_NE(refusal(corpus("mask/ply.ply")).find("not named"), std::string::npos);
   EXPECT_NE(refusal(corpus("mask/ply.ply") + ":roof").find("no property roof"), std::string::npos);
   const auto two = TriangleMesh::build({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}});

@@ -70,6 +70,30 @@ std::string stl_binary(std::string header) {
   return header;
 }
 
+/// `beside`: numbers behind the position of a vertex. The last face has no colour.
+std::string off_binary(const std::string& keyword, int beside) {
+  const auto whole = [](std::string& bytes, std::int32_t number) {
+    append(bytes, number, std::endian::big);
+  };
+  const auto reals = [](std::string& bytes, int count) {
+    for (int k = 0; k < count; ++k) append(bytes, 0.5f, std::endian::big);
+  };
+  std::string bytes = keyword + " BINARY\n";
+  for (const std::int32_t count : {5, 5, 0}) whole(bytes, count);
+  for (const Vec3& position : pyramid_positions()) {
+    for (int axis = 0; axis < 3; ++axis) {
+      append(bytes, static_cast<float>(position[axis]), std::endian::big);
+    }
+    reals(bytes, beside);
+  }
+  for (std::int32_t side = 0; side < 4; ++side) {
+    for (const std::int32_t number : {3, side, (side + 1) % 4, 4, 3}) whole(bytes, number);
+    reals(bytes, 3);
+  }
+  for (const std::int32_t number : {4, 3, 2, 1, 0, 0}) whole(bytes, number);
+  return bytes;
+}
+
 std::string stl_ascii() {
   std::string text = "solid a pyramid\n";
   const std::vector<Vec3> positions = pyramid_positions();
@@ -212,6 +236,8 @@ std::vector<Sample> pyramid_samples() {
       {"noff", "a.off",
        "NOFF\n5 5 0\n0 0 0 0 0 1\n2 0 0 0 0 1\n2 2 0 0 0 1\n0 2 0 0 0 1\n1 1 1.5 0 0 1\n"
        "3 0 1 4\n3 1 2 4\n3 2 3 4\n3 3 0 4\n4 3 2 1 0\n"},
+      {"off_binary", "a.off", off_binary("OFF", 0)},
+      {"off_binary_with_normals_and_colours", "a.off", off_binary("CNOFF", 7)},
       {"ply_ascii", "a.ply", ply_ascii},
       {"ply_ascii_with_crlf", "a.ply", with_crlf(ply_ascii)},
       {"ply_little_endian", "a.ply", ply_binary("binary_little_endian", std::endian::little)},

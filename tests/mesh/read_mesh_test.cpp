@@ -20,10 +20,13 @@ std::vector<Face> faces_of(const MeshFile& file) {
   return {file.mesh.faces().begin(), file.mesh.faces().end()};
 }
 
-class EveryFormat : public testing::TestWithParam<Sample> {};
+class EveryFormat : public testing::TestWithParam<Sample> {
+ protected:
+  static void expect_pyramid(const std::string& bytes);
+};
 
-TEST_P(EveryFormat, gives_the_same_mesh) {
-  const Result<MeshFile> file = read_bytes(GetParam().file, GetParam().bytes);
+void EveryFormat::expect_pyramid(const std::string& bytes) {
+  const Result<MeshFile> file = read_bytes(GetParam().file, bytes);
   ASSERT_TRUE(file) << file.error().message;
   EXPECT_EQ(file->notes, std::vector<std::string>());
   if (GetParam().file == "a.stl") {  // has triangles only; numbered by first appearance: 0 1 4 2 3
@@ -39,6 +42,18 @@ TEST_P(EveryFormat, gives_the_same_mesh) {
     EXPECT_EQ(file->polygons, 1);
     EXPECT_EQ(file->welded, 0);
   }
+}
+
+TEST_P(EveryFormat, gives_the_same_mesh) { expect_pyramid(GetParam().bytes); }
+
+TEST_P(EveryFormat, of_text_gives_the_same_mesh_behind_a_mark_of_utf8_and_with_cr_alone) {
+  std::string text = GetParam().bytes;
+  const auto is_text = [](char c) { return c == '\n' || (c >= ' ' && c <= '~'); };
+  if (!std::ranges::all_of(text, is_text)) return;
+  expect_pyramid("\xef\xbb\xbf" + text);
+  std::ranges::replace(text, '\n', '\r');
+  expect_pyramid(text);
+  expect_pyramid("\xef\xbb\xbf" + text);
 }
 
 INSTANTIATE_TEST_SUITE_P(Samples, EveryFormat, testing::ValuesIn(pyramid_samples()),
@@ -226,12 +241,27 @@ TEST(ReadMesh, stl_corners_at_plus_and_minus_zero_are_one_vertex) {
 }
 
 TEST(ReadMesh, edges_among_the_faces_are_left_out_with_a_note) {
-  const Result<MeshFile> file =
-      read_bytes("a.off", "OFF\n3 3 0\n0 0 0\n1 0 0\n0 1 0\n2 0 1\n3 0 1 2\n1 0\n");
-  ASSERT_TRUE(file) << file.error().message;
-  EXPECT_EQ(faces_of(*file), (std::vector<Face>{{0, 1, 2}}));
-  ASSERT_EQ(file->notes.size(), 1u);
-  EXPECT_NE(file->notes[0].find("2 faces with fewer than 3 corners"), std::string::npos);
+  const std::string points = "0 0 0\n1 0 0\n0 1 0\n", faces = "2 0 1\n3 0 1 2\n1 0\n";
+  for (const auto& [name, bytes] : {
+           std::pair("a.off", "OFF\n3 3 0\n" + points + faces),
+           std::pair("a.ply",
+                     "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
+                     "property float z\nelement face 3\nproperty list uchar int vertex_indices\n"
+                     "end_header\n" +
+                         points + faces),
+           std::pair("a.obj", std::string("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2\nf 1 2 3\nf -3\n")),
+           std::pair("a.vtk",
+                     "# vtk DataFile Version 3.0\nx\nASCII\nDATASET POLYDATA\nPOINTS 3 "
+                     "float\n" +
+                         points + "POLYGONS 3 9\n" + faces),
+       }) {
+    const Result<MeshFile> file = read_bytes(name, bytes);
+    ASSERT_TRUE(file) << file.error().message;
+    EXPECT_EQ(faces_of(*file), (std::vector<Face>{{0, 1, 2}})) << name;
+    EXPECT_EQ(file->notes,
+              std::vector<std::string>{"2 faces with fewer than 3 corners were left out"})
+        << name;
+  }
 }
 
 TEST(ReadMesh, bytes_behind_the_mesh_are_ignored_with_a_note) {

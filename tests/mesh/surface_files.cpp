@@ -81,6 +81,7 @@ std::vector<Sample> surface_samples() {
       {"vtu", "a.vtu", vtk_xml("UnstructuredGrid", "NumberOfCells=\"5\"", "<Cells>\n")},
       {"vtp", "a.vtp", vtk_xml("PolyData", "NumberOfVerts=\"0\" NumberOfPolys=\"5\"", "<Polys>\n")},
       {"gmsh_2", "a.msh", gmsh_2()},
+      {"gmsh_2_behind_comments", "a.msh", "$Comments\nby hand $ Nodes\n$EndComments\n" + gmsh_2()},
       {"gmsh_4", "a.msh", gmsh_4()},
       {"medit", "a.mesh", medit()},
       {"vtk_packed", "a.vtk.gz", gzipped(vtk)},

@@ -77,6 +77,24 @@ TEST(VtkStrips, BecomeTrianglesOfOneOrientation) {
   EXPECT_EQ(faces, (std::vector<Face>(kStripFaces.begin(), kStripFaces.end() - 1)));
 }
 
+TEST(VtkPoints, MayBeWholeNumbers) {
+  using namespace std::string_literals;  // NOLINT: for zero bytes inside strings
+  const TemporaryDirectory directory;
+  const auto file = [&](const std::string& kind, const std::string& points,
+                        const std::string& faces) {
+    return read_mesh(directory.write("a.vtk", "# vtk DataFile Version 3.0\nx\n" + kind +
+                                                  "\nDATASET POLYDATA\nPOINTS 3 short\n" + points +
+                                                  "\nPOLYGONS 1 4\n" + faces));
+  };
+  for (const auto& mesh : {file("ASCII", "0 0 0 1 0 0 0 -1 0", "3 0 1 2\n"),
+                           file("BINARY", "\0\0\0\0\0\0\0\1\0\0\0\0\0\0\xff\xff\0\0"s,
+                                "\0\0\0\3\0\0\0\0\0\0\0\1\0\0\0\2"s)}) {
+    ASSERT_TRUE(mesh) << mesh.error().message;
+    EXPECT_EQ(mesh->mesh.positions()[1], Vec3(1, 0, 0));
+    EXPECT_EQ(mesh->mesh.positions()[2], Vec3(0, -1, 0));
+  }
+}
+
 TEST(Vtp, AsItIsWrittenIsReadBack) {
   const TemporaryDirectory directory;
   const auto mesh = TriangleMesh::build(pyramid_positions(), pyramid_faces());
@@ -112,6 +130,24 @@ TEST(Elements, ThatAreNoFacesAreLeftOutAndSaid) {
   const std::string triangle =
       directory.write("c.msh", nodes + "1\n1 2 2 0 1 1 2 3\n$EndElements\n");
   EXPECT_EQ(read_tets(triangle).error().code, ErrorCode::kNotAvailable) << "faces to read";
+}
+
+TEST(Elements, OfSecondOrderAreSaidToBeCurved) {
+  const std::string says =
+      ": the file has no tetrahedra with 4 corners and no faces, but 6 vertices and triangles with "
+      "6 corners (1); save it with straight elements, those of first order";
+  const TemporaryDirectory directory;
+  const std::string gmsh = directory.write(
+      "a.msh",
+      "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n6\n1 0 0 0\n2 2 0 0\n3 0 2 0\n4 1 0 0\n"
+      "5 1 1 0\n6 0 1 0\n$EndNodes\n$Elements\n1\n1 9 2 0 1 1 2 3 4 5 6\n$EndElements\n");
+  EXPECT_EQ(sentence(read_tets(gmsh).error()), gmsh + says);
+  const std::string vtk = directory.write(
+      "a.vtk",
+      "# vtk DataFile Version 3.0\nx\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 6 float\n"
+      "0 0 0\n2 0 0\n0 2 0\n1 0 0\n1 1 0\n0 1 0\nCELLS 1 7\n6 0 1 2 3 4 5\nCELL_TYPES 1\n22\n");
+  EXPECT_EQ(sentence(read_tets(vtk).error()), vtk + says);
+  EXPECT_NE(sentence(read_mesh(vtk).error()).find("first order"), std::string::npos);
 }
 
 std::string packed_triangle() { return gzipped("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"); }

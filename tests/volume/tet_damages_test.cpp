@@ -68,8 +68,8 @@ std::vector<TetDamage> medit_damages() {
       {"meshb_short", "a.meshb", std::string("\1\0\0\0\2\0\0", 7), "byte 4: the file ends"},
       {"meshb_backwards", "a.meshb",
        std::string("\1\0\0\0\2\0\0\0\3\0\0\0\0\0\0\0\3\0\0\0\4\0\0\0\4\0\0\0\0\0\0\0", 32),
-       "the file has no tetrahedra with 4 corners, but 0 vertices; distances in a volume need "
-       "tetrahedra"},
+       "the file has no tetrahedra with 4 corners and no faces, but 0 vertices; distances need "
+       "faces or tetrahedra"},
   };
 }
 
@@ -147,8 +147,8 @@ std::vector<TetDamage> vtk_damages() {
       {"vtu_not_finite", "a.vtu", vtu_of("0 1 2 3", "10", "0 0 0 1 0 0 0 inf 0 0 0 1"),
        "line 2: the coordinate \"inf\" is not finite in Points"},
       {"vtu_hexahedron", "a.vtu", vtu_of("0 1 2 3", "12"),
-       "the file has no tetrahedra with 4 corners, but 4 vertices and hexahedra (1); distances in "
-       "a volume need tetrahedra"},
+       "the file has no tetrahedra with 4 corners and no faces, but 4 vertices and hexahedra (1); "
+       "distances need faces or tetrahedra"},
       {"vtu_tag", "a.vtu", kVtu + "<Piece NumberOfPoints=\"4",
        "line 2: a tag does not end: the file ends in it"},
   };

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Nearly raw raster data (Teem: https://teem.sourceforge.net/nrrd/format.html): lines of text up to
-// an empty one, then the samples, or in a file of their own. The first axis is the fastest.
+// an empty one, then the samples, or in a file of their own. The first axis is the fastest. Words
+// have the same meaning in capitals, as Teem reads them.
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -60,6 +61,12 @@ constexpr struct {
     {"double", NumberType::kFloat64},
 };
 
+/// A line that says something of each axis, and of how many; 0: there is none.
+struct PerAxis {
+  std::string_view text;
+  std::size_t count = 0;
+};
+
 class NrrdHeaderReader {
  public:
   explicit NrrdHeaderReader(std::string_view text) : text_(text) {}
@@ -79,10 +86,12 @@ class NrrdHeaderReader {
       std::string_view value = line.substr(colon + 1);
       value.remove_prefix(std::min(value.find_first_not_of(" \t"), value.size()));
       while (value.ends_with(' ') || value.ends_with('\t')) value.remove_suffix(1);
-      take(line.substr(0, colon), value);
+      take(lower_case(line.substr(0, colon)), value);
     }
     header_.data_begins = std::min(at_, text_.size());
-    if (!typed_ || sizes_ == 0) throw ReadFailure{"the header has no type or no sizes"};
+    if (!typed_ || sizes_.count == 0) throw ReadFailure{"the header has no type or no sizes"};
+    check_axes();
+    check_order();
     check_kinds();
     return std::move(header_);
   }
@@ -101,10 +110,11 @@ class NrrdHeaderReader {
   }
 
   void take(std::string_view field, std::string_view value) {
+    const std::string word = lower_case(value);
     if (field == "type") {
       const auto* const known =
           std::find_if(std::begin(kNrrdTypes), std::end(kNrrdTypes),
-                       [value](const auto& each) { return each.name == value; });
+                       [&word](const auto& each) { return each.name == word; });
       if (known == std::end(kNrrdTypes)) {
         fail(value, "the type of numbers " + quoted(value, value.data()) + " is unknown");
       }
@@ -114,24 +124,32 @@ class NrrdHeaderReader {
       if (value != "2" && value != "3") {
         fail(value, "the dimension is " + quoted(value, value.data()) + "; a grid has 2 or 3");
       }
+      dimension_ = value == "2" ? 2 : 3;
     } else if (field == "sizes") {
       read_sizes(value);
     } else if (field == "kinds") {
       kinds_ = value;
     } else if (field == "encoding") {
       using Encoding = NrrdHeader::Encoding;
-      if (value != "raw" && value != "gzip" && value != "gz" && value != "ascii" &&
-          value != "text" && value != "txt") {
+      if (word != "raw" && word != "gzip" && word != "gz" && word != "ascii" && word != "text" &&
+          word != "txt") {
         fail(value, "the encoding " + quoted(value, value.data()) + " is not supported",
              {"save it raw or gzip"});
       }
-      header_.encoding = value == "raw"           ? Encoding::kRaw
-                         : value.starts_with('g') ? Encoding::kGzip
-                                                  : Encoding::kText;
+      header_.encoding = word == "raw"           ? Encoding::kRaw
+                         : word.starts_with('g') ? Encoding::kGzip
+                                                 : Encoding::kText;
     } else if (field == "endian") {
-      header_.order = value == "big" ? std::endian::big : std::endian::little;
+      if (word != "big" && word != "little") {
+        fail(value, "the endian " + quoted(value, value.data()) + " is unknown",
+             {"it is big or little"});
+      }
+      header_.order = word == "big" ? std::endian::big : std::endian::little;
+      ordered_ = true;
     } else if (field == "spacings") {
-      for (std::size_t e = 0; double each : reals(value, 3)) {
+      spacings_ = {value, 0};
+      for (double each : reals(value, 3)) {
+        std::size_t& e = spacings_.count;
         if (!std::isnan(each)) header_.grid.spacing[e] = each;  // nan: not known
         ++e;
       }
@@ -142,6 +160,10 @@ class NrrdHeaderReader {
     } else if (field == "data file" || field == "datafile") {
       if (value.starts_with("LIST") || value.find('%') != value.npos) {
         fail(value, "the samples are in several files", {"save them as one"});
+      }
+      if (value.starts_with('/') || value.find("..") != value.npos) {
+        fail(value, "the samples are in " + printable(value) + ", outside the folder of the header",
+             {"move them beside it, and name the file alone"});
       }
       header_.data_file = std::string(value);
     } else if (field == "line skip" || field == "lineskip") {
@@ -160,6 +182,31 @@ class NrrdHeaderReader {
          {"save the brightness or one of them alone"});
   }
 
+  /// What is said of each axis is said of as many as there are.
+  void check_axes() const {
+    if (dimension_ != sizes_.count) {
+      fail(sizes_.text,
+           "there are " + counted_text(sizes_.count, "size", "sizes") + ", and the dimension is " +
+               (dimension_ == 0 ? "not given" : std::to_string(dimension_)),
+           {"give a size for each axis"});
+    }
+    for (const PerAxis& each : {spacings_, directions_}) {
+      if (each.count == 0 || each.count == sizes_.count) continue;
+      fail(each.text, "there are " + counted_text(sizes_.count, "size", "sizes") +
+                          ", but this is said of " + counted_text(each.count, "axis", "axes"));
+    }
+  }
+
+  void check_order() const {
+    const std::size_t bytes = size_of(header_.type);
+    if (ordered_ || bytes == 1 || header_.encoding == NrrdHeader::Encoding::kText) return;
+    throw ReadFailure{"the samples have " + std::to_string(bytes) +
+                          " bytes each, and the header has no endian, the order of them",
+                      0,
+                      {},
+                      {"add the line endian: little, or endian: big"}};
+  }
+
   /// Axes are places, or numbers of one sample such as a colour's, which have no direction. One
   /// value is none too many.
   void check_kinds() const {
@@ -168,12 +215,13 @@ class NrrdHeaderReader {
     }
     constexpr std::string_view kPlaces[] = {"domain", "space", "time", "none", "???"};
     std::size_t axis = 0;
-    for (std::string_view rest = kinds_; axis < sizes_; ++axis) {
+    for (std::string_view rest = kinds_; axis < sizes_.count; ++axis) {
       rest.remove_prefix(std::min(rest.find_first_not_of(" \t"), rest.size()));
       const std::string_view kind = rest.substr(0, rest.find_first_of(" \t"));
       if (kind.empty()) return;
       rest.remove_prefix(kind.size());
-      if (std::ranges::count(kPlaces, kind) > 0 || header_.grid.size[axis] == 1) continue;
+      if (std::ranges::count(kPlaces, lower_case(kind)) > 0 || header_.grid.size[axis] == 1)
+        continue;
       fail_of_axis(kind, axis, "is " + printable(kind));
     }
   }
@@ -187,16 +235,18 @@ class NrrdHeaderReader {
   }
 
   void read_sizes(std::string_view value) {
+    std::size_t& count = sizes_.count;
+    sizes_ = {value, 0};
     const char* p = value.data();
     const char* const end = p + value.size();
     while (p < end) {
       std::int64_t size = 0;
       p = parse_integer(p, size);
-      if (p == nullptr || p > end || sizes_ == 3) fail(value, "the sizes cannot be read");
-      header_.grid.size[sizes_++] = size;
+      if (p == nullptr || p > end || count == 3) fail(value, "the sizes cannot be read");
+      header_.grid.size[count++] = size;
       while (p < end && (*p == ' ' || *p == '\t')) ++p;
     }
-    if (sizes_ < 2) fail(value, "there is one size; a grid has 2 or 3");
+    if (count < 2) fail(value, "there is one size; a grid has 2 or 3");
   }
 
   /// Numbers between blanks, commas and brackets, at most so many.
@@ -244,12 +294,14 @@ class NrrdHeaderReader {
     if (!along) {
       fail(value, "the axes are not those of space", {"save it along the axes, or with spacings"});
     }
+    directions_ = {value, all.size() / in_space};
   }
 
   std::string_view text_;
   std::size_t at_ = 0;
-  bool typed_ = false;
-  std::size_t sizes_ = 0;
+  bool typed_ = false, ordered_ = false;
+  std::size_t dimension_ = 0;  ///< 0: not given
+  PerAxis sizes_, spacings_, directions_;
   std::string_view kinds_, no_direction_;
   std::size_t axis_without_direction_ = 0;
   NrrdHeader header_;

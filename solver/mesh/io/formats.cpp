@@ -18,16 +18,13 @@ struct FileBeginning {
   std::string_view bytes, name;
 };
 constexpr FileBeginning kBeginnings[] = {
-    {"ply\n", "ply"},          {"ply\r", "ply"},
-    {"glTF", "glb"},           {"PK\x03\x04", "3mf"},
-    {"# vtk DataFile", "vtk"}, {"$MeshFormat", "msh"},
-    {"$NOD", "msh"},           {"MeshVersionFormatted", "mesh"},
-    {"\x93NUMPY", "npy"},      {"\x89PNG", "png"},
-    {"NRRD000", "nrrd"},       {"# .PCD", "pcd"},
-    {"LASF", "las"},           {"OFF", "off"},
-    {"COFF", "off"},           {"NOFF", "off"},
-    {"CNOFF", "off"},          {"STOFF", "off"},
-    {"solid", "stl"},          {"\xff\xff\xfe", "fsurf"},
+    {"ply\n", "ply"},      {"ply\r", "ply"},          {"glTF", "glb"},
+    {"PK\x03\x04", "3mf"}, {"# vtk DataFile", "vtk"}, {"$MeshFormat", "msh"},
+    {"$Comments", "msh"},  {"$NOD", "msh"},           {"MeshVersionFormatted", "mesh"},
+    {"\x93NUMPY", "npy"},  {"\x89PNG", "png"},        {"NRRD000", "nrrd"},
+    {"# .PCD", "pcd"},     {"LASF", "las"},           {"OFF", "off"},
+    {"COFF", "off"},       {"NOFF", "off"},           {"CNOFF", "off"},
+    {"STOFF", "off"},      {"solid", "stl"},          {"\xff\xff\xfe", "fsurf"},
 };
 
 bool is_binary_stl(std::string_view start, std::size_t size) {
@@ -99,7 +96,6 @@ std::string_view format_by_content(std::string_view start, std::size_t size) {
   const std::string_view exact = format_beginning_as(start);
   if (!exact.empty()) return exact;
   if (is_meshb(start)) return "meshb";
-  if (start.starts_with("\xef\xbb\xbf")) start.remove_prefix(3);  // the mark of UTF-8
   start = without_comments(start);
   if (start.empty()) return {};
   if (start.front() == '<') return format_of_xml(start);

@@ -27,6 +27,8 @@ std::string gmsh_name(std::int64_t kind) {
   static constexpr const char* kNames[] = {"", "edges",     "triangles", "quads",
                                            "", "hexahedra", "prisms",    "pyramids"};
   if (kind == 15) return "points";
+  if (kind == 9) return "triangles with 6 corners";
+  if (kind == 10 || kind == 16) return kind == 10 ? "quads with 9 corners" : "quads with 8 corners";
   if (kind == 11) return "tetrahedra with 10 corners";
   if (kind > 0 && kind < 8 && kind != kGmshTet) return kNames[kind];
   return "elements of Gmsh's type " + std::to_string(kind);
@@ -105,7 +107,12 @@ class GmshFile {
   void read_format() {
     TextScanner& words = scanner_.words();
     words.now_reading("the header");
-    const std::string_view first = words.word();
+    std::string_view first = words.word();
+    while (first == "$Comments") {  // the one section that may stand in front
+      pass_section("$Comments");
+      words.now_reading("the header");
+      first = words.word();
+    }
     if (first == "$NOD") words.fail("version 1 is not supported", {"save it as version 4.1"});
     if (first != "$MeshFormat") words.fail("a file of Gmsh starts with the word $MeshFormat");
     const std::string version(words.word());

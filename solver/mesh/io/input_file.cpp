@@ -87,6 +87,15 @@ void wait_for_writer(int descriptor) {
   ::fcntl(descriptor, F_SETFL, ::fcntl(descriptor, F_GETFL) & ~O_NONBLOCK);
 }
 
+/// Whether it is text whose lines end with a CR alone, as those of old Macintosh programs do.
+bool ends_lines_with_cr(std::string_view start) {
+  const auto is_text = [](char c) {
+    return c == '\r' || c == '\t' || static_cast<unsigned char>(c) >= ' ';
+  };
+  const std::size_t first = start.find('\r');
+  return first != start.npos && first + 1 < start.size() && std::ranges::all_of(start, is_text);
+}
+
 }  // namespace
 
 InputFile::InputFile(std::string path, std::string shown, int descriptor)
@@ -101,6 +110,7 @@ InputFile::InputFile(InputFile&& other) noexcept
       shown_(std::move(other.shown_)),
       extension_(std::move(other.extension_)),
       descriptor_(std::exchange(other.descriptor_, -1)),
+      begins_(other.begins_),
       before_(other.before_),
       held_(std::move(other.held_)) {}
 
@@ -109,6 +119,7 @@ InputFile& InputFile::operator=(InputFile&& other) noexcept {
   std::swap(shown_, other.shown_);
   std::swap(extension_, other.extension_);
   std::swap(descriptor_, other.descriptor_);
+  std::swap(begins_, other.begins_);
   std::swap(before_, other.before_);
   std::swap(held_, other.held_);
   return *this;
@@ -163,7 +174,16 @@ Result<void> InputFile::prepare(std::string_view format) {
           unpack_gzip(FileBytes(*this).bytes(), most_bytes(), kPadding));
       if (size() == 0) throw ReadFailure{"nothing is packed in it (0 bytes)"};
     }
+    constexpr std::string_view kMark = "\xef\xbb\xbf";
+    if (start(kMark.size()) == kMark) begins_ = kMark.size();
     constexpr std::size_t kLooked = 4096;
+    if (ends_lines_with_cr(start(kLooked))) {
+      RawVector<char> lines(size() + kPadding);
+      std::ranges::replace_copy(FileBytes(*this).bytes(), lines.begin(), '\r', '\n');
+      std::fill(lines.end() - kPadding, lines.end(), '\0');
+      held_ = std::make_shared<const RawVector<char>>(std::move(lines));
+      begins_ = 0;
+    }
     extension_ = format.empty() ? model_extension(path_) : "." + std::string(format);
     // FreeSurfer names its surfaces lh.white, rh.pial and the like.
     const std::string_view found = format_by_content(start(kLooked), size());
@@ -230,11 +250,11 @@ std::string InputFile::start(std::size_t most) const {
 void InputFile::read(char* to, std::size_t count, std::size_t place) const {
   if (held_) {
     if (place > size() || count > size() - place) throw ReadFailure{"the file ends"};
-    std::memcpy(to, held_->data() + place, count);
+    std::memcpy(to, held_->data() + begins_ + place, count);
     return;
   }
   while (count > 0) {
-    const ssize_t got = ::pread(descriptor_, to, count, static_cast<off_t>(place));
+    const ssize_t got = ::pread(descriptor_, to, count, static_cast<off_t>(begins_ + place));
     if (got < 0 && errno == EINTR) continue;
     if (got < 0) {
       throw ReadFailure{"cannot be read: " + std::generic_category().message(errno)};
@@ -279,7 +299,9 @@ LargeBuffer room_for(std::size_t bytes) {
 }  // namespace
 
 FileBytes::FileBytes(const InputFile& file)
-    : held_(file.held_), buffer_(held_ ? LargeBuffer() : room_for(file.size() + kPadding)) {
+    : held_(file.held_),
+      begins_(file.begins_),
+      buffer_(held_ ? LargeBuffer() : room_for(file.size() + kPadding)) {
   if (held_) return;
   constexpr std::int64_t kPiece = std::int64_t{4} << 20;
   char* const bytes = reinterpret_cast<char*>(buffer_.data());

@@ -59,7 +59,7 @@ class InputFile {
   InputFile& operator=(const InputFile&) = delete;
   ~InputFile();
 
-  std::size_t size() const { return held_ ? held_->size() - kPadding : before_.size; }
+  std::size_t size() const { return (held_ ? held_->size() - kPadding : before_.size) - begins_; }
   bool is_stream() const { return descriptor_ < 0; }
   const std::string& path() const { return path_; }    ///< empty for a stream
   const std::string& shown() const { return shown_; }  ///< the path or the name, for messages
@@ -94,11 +94,14 @@ class InputFile {
   static Version version_in(const struct ::stat& status);
   /// Holds what the stream gives, and closes it. Errors: those of open().
   Result<void> hold_stream();
-  /// Unpacks what is packed, and finds the extension. Errors: those of open().
+  /// Unpacks what is packed, passes over the mark of UTF-8 that some editors write in front of a
+  /// text, makes line ends of CR alone those of today, and finds the extension. Errors: those of
+  /// open().
   Result<void> prepare(std::string_view format);
 
   std::string path_, shown_, extension_;
-  int descriptor_ = -1;  ///< of a regular file; of a stream -1
+  int descriptor_ = -1;     ///< of a regular file; of a stream -1
+  std::size_t begins_ = 0;  ///< where its bytes do, in the file or in what is held
   Version before_;
   std::shared_ptr<const RawVector<char>> held_;  ///< with the padding; null: the file has the bytes
 };
@@ -119,13 +122,14 @@ class FileBytes {
   static Result<FileBytes> read(const std::string& path);
 
   std::string_view bytes() const {
-    if (held_) return {held_->data(), held_->size() - kPadding};
+    if (held_) return {held_->data() + begins_, held_->size() - kPadding - begins_};
     return {reinterpret_cast<const char*>(buffer_.data()), buffer_.size() - kPadding};
   }
 
  private:
   std::shared_ptr<const RawVector<char>> held_;
-  LargeBuffer buffer_;  ///< with the padding
+  std::size_t begins_ = 0;  ///< in what is held
+  LargeBuffer buffer_;      ///< with the padding
 };
 
 /// That the extension of a file is none of those that hold what is asked for. `of`: " of tets", or

@@ -56,6 +56,7 @@ const char* ObjChunk::parse_until(std::size_t face) {
   positions.clear();
   faces.clear();
   polygons.clear();
+  left_out = 0;
   // A guess at the numbers of lines: most files need no more, and pages not used cost nothing.
   positions.reserve(text.size() / 24 + 1);
   faces.reserve(text.size() / 18 + 1);
@@ -99,7 +100,6 @@ const char* ObjChunk::parse_vertex(const char* p) {
 
 const char* ObjChunk::parse_face(const char* p) {
   FanBuilder fan(faces);
-  const char* const start = p;
   for (p = skip_blanks(p); !ends_line(*p) && p < end(); p = skip_blanks(p)) {
     // The usual case here, in registers: a positive number of at most 7 digits.
     const Digits digits = read_digits(p);
@@ -112,11 +112,8 @@ const char* ObjChunk::parse_face(const char* p) {
       fan.add(parse_corner(p));
     }
   }
-  if (fan.corners() < 3) {
-    fail_at_line(text, start, "a face has " + std::to_string(fan.corners()) + " corners",
-                 {"it needs at least 3"});
-  }
   fan.end(polygons);
+  left_out += fan.left_out();
   return p;
 }
 

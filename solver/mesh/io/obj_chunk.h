@@ -21,7 +21,8 @@ struct ObjChunk {
   std::vector<Vec3> positions;
   std::vector<Face> faces;  ///< 0-based; checked against 0 only
   std::vector<Polygon> polygons;
-  bool needs_base = false;  ///< holds relative indices: parse again with `vertex_base` known
+  std::size_t left_out = 0;  ///< faces of fewer than three corners
+  bool needs_base = false;   ///< holds relative indices: parse again with `vertex_base` known
 
   /// Fills the arrays. Throws ReadFailure at the first line that cannot be read, counted
   /// within the chunk.

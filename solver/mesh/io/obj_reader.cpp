@@ -69,12 +69,8 @@ class ObjSource {
       const std::size_t to = std::min(limit + tail, size_);
       const char* const window = bytes(from, to, buffer);
       const char* const last = window + (to - from);
-      const char* begin = window;
-      if (i > 0) {
-        begin = line_start(window + (place - from), window, window + (limit - from));
-      } else if (std::string_view(window, last).starts_with("\xef\xbb\xbf")) {
-        begin += 3;  // a byte order mark that some editors write
-      }
+      const char* const begin =
+          i == 0 ? window : line_start(window + (place - from), window, window + (limit - from));
       if (begin == window + (limit - from)) return {};
       const char* const end =
           limit == size_ ? last : line_start(window + (limit - from), window, last);
@@ -194,6 +190,7 @@ RawMesh read_pieces(ObjSource& source) {
   mesh.positions.resize(vertex_count);
   mesh.faces.resize(face_count);
   std::vector<std::size_t> bad_faces(chunks.size());
+  std::size_t left_out = 0;
   for_each_chunk(chunks.size(), [&](std::size_t i) {
     ObjChunk& chunk = chunks[i];
     std::ranges::copy(chunk.positions,
@@ -215,7 +212,9 @@ RawMesh read_pieces(ObjSource& source) {
     for (const Polygon& polygon : chunks[i].polygons) {
       mesh.polygons.push_back({face_starts[i] + polygon.first_face, polygon.face_count});
     }
+    left_out += chunks[i].left_out;
   }
+  note_left_out(left_out, mesh.notes);
   return mesh;
 }
 

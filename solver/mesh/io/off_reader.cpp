@@ -1,46 +1,59 @@
 // SPDX-License-Identifier: MIT
+// Geomview's OFF, text and binary (big endian; http://www.geomview.org/docs/html/OFF.html).
+#include <bit>
+#include <cstdint>
 #include <string>
 
-#include "solver/core/text.h"
-#include "solver/mesh/io/input_file.h"
+#include "solver/mesh/io/mixed_scanner.h"
 #include "solver/mesh/io/raw_mesh.h"
-#include "solver/mesh/io/text_scanner.h"
 
 namespace geotherm::io {
 namespace {
 
-/// Takes the first word. Colours, normals and texture coordinates (C, N, ST) stand behind the
-/// position in a vertex's line and are skipped with the rest of it; without the word the counts
-/// come first.
-void read_keyword(TextScanner& scanner) {
-  const std::string_view word = scanner.peek();
-  if (!word.empty() && (word.find_first_not_of("+-0123456789") == word.npos)) return;
-  scanner.word();
+/// Takes the first word; returns how many numbers stand behind the position of a vertex: colours,
+/// normals and texture coordinates (C, N, ST). Without the word the counts come first.
+std::int64_t read_keyword(MixedScanner& scanner) {
+  TextScanner& words = scanner.words();
+  const std::string_view word = words.peek();
+  if (!word.empty() && (word.find_first_not_of("+-0123456789") == word.npos)) return 0;
+  words.word();
   if (word == "4OFF" || word == "nOFF" || word == "4nOFF") {
-    scanner.fail("the format " + std::string(word) + " has points that are not in 3 dimensions");
+    words.fail("the format " + std::string(word) + " has points that are not in 3 dimensions");
   }
   if (word != "OFF" && word != "COFF" && word != "NOFF" && word != "CNOFF" && word != "NCOFF" &&
       word != "STOFF" && word != "STCOFF" && word != "STNOFF" && word != "STCNOFF") {
-    scanner.fail("an OFF file starts with the word OFF");
+    words.fail("an OFF file starts with the word OFF");
   }
-  if (scanner.peek() == "BINARY") scanner.fail("binary OFF is not supported", {"save it as text"});
+  if (words.peek() == "BINARY") {
+    scanner.be_binary(std::endian::big);
+    scanner.begin_values();
+  }
+  const auto has = [word](const char* what) { return word.find(what) != word.npos; };
+  return (has("C") ? 4 : 0) + (has("N") ? 3 : 0) + (has("ST") ? 2 : 0);
 }
 
-std::size_t read_count(TextScanner& scanner, const char* things, std::size_t bytes_each) {
-  const std::int64_t count = scanner.integer();
+std::size_t read_count(MixedScanner& scanner, const char* things, std::size_t bytes_each) {
+  const std::int64_t count = scanner.integer<std::int32_t>();
   return checked_count(scanner, count, things, (scanner.bytes_left() + 1) / bytes_each,
                        "the header announces ");
+}
+
+/// Behind what is read of a line; in binary there are so many numbers of 4 bytes.
+void skip_rest(MixedScanner& scanner, std::int64_t numbers) {
+  if (scanner.is_binary()) return scanner.skip<float>(numbers);
+  scanner.words().skip_line();
 }
 
 }  // namespace
 
 RawMesh read_off(std::string_view text) {
-  TextScanner scanner(text, '#');
+  MixedScanner scanner(text, '#');
   scanner.now_reading("the header");
-  read_keyword(scanner);
-  const std::size_t vertex_count = read_count(scanner, "vertices", 6);  // "0 0 0\n"
-  const std::size_t face_count = read_count(scanner, "faces", 2);       // "0\n"
-  scanner.skip_line();                                                  // the number of edges
+  const std::int64_t beside = read_keyword(scanner);
+  const bool binary = scanner.is_binary();
+  const std::size_t vertex_count = read_count(scanner, "vertices", binary ? 12 : 6);  // "0 0 0\n"
+  const std::size_t face_count = read_count(scanner, "faces", binary ? 8 : 2);        // "0\n"
+  skip_rest(scanner, 1);  // the number of edges
 
   RawMesh mesh;
   mesh.positions.resize(vertex_count);
@@ -48,20 +61,19 @@ RawMesh read_off(std::string_view text) {
   for (std::size_t v = 0; v < vertex_count; ++v) {
     scanner.now_reading("vertex", static_cast<std::int64_t>(v) + 1,
                         static_cast<std::int64_t>(vertex_count));
-    for (int axis = 0; axis < 3; ++axis) mesh.positions[v][axis] = scanner.coordinate();
-    scanner.skip_line();
+    for (int axis = 0; axis < 3; ++axis) mesh.positions[v][axis] = scanner.coordinate<float>();
+    skip_rest(scanner, beside);
   }
   FanBuilder fan(mesh.faces);
-  std::size_t skipped = 0;
   for (std::size_t f = 0; f < face_count; ++f) {
     scanner.now_reading("face", static_cast<std::int64_t>(f) + 1,
                         static_cast<std::int64_t>(face_count));
-    const std::int64_t corner_count = scanner.integer();
+    const std::int64_t corner_count = scanner.integer<std::int32_t>();
     if (corner_count < 0 || static_cast<std::uint64_t>(corner_count) > scanner.bytes_left()) {
       scanner.fail("a face cannot have " + std::to_string(corner_count) + " corners");
     }
     for (std::int64_t k = 0; k < corner_count; ++k) {
-      const std::int64_t corner = scanner.integer();
+      const std::int64_t corner = scanner.integer<std::int32_t>();
       if (corner < 0 || static_cast<std::uint64_t>(corner) >= vertex_count) {
         scanner.fail("vertex " + std::to_string(corner) + " is used, but the file has " +
                      std::to_string(vertex_count) + " vertices (0 to " +
@@ -69,15 +81,11 @@ RawMesh read_off(std::string_view text) {
       }
       fan.add(static_cast<Index>(corner));
     }
-    if (fan.corners() < 3) ++skipped;
     fan.end(mesh.polygons);
-    scanner.skip_line();  // a colour
+    skip_rest(scanner, binary ? scanner.integer<std::int32_t>() : 0);  // a colour
   }
-  if (skipped > 0) {
-    mesh.notes.push_back(counted_text(skipped, "face", "faces") + " with fewer than 3 corners " +
-                         (skipped == 1 ? "was" : "were") + " left out");
-  }
-  if (!scanner.at_end()) {
+  note_left_out(fan.left_out(), mesh.notes);
+  if (binary ? scanner.bytes_left() > 0 : !scanner.words().at_end()) {
     mesh.notes.emplace_back("what follows the last face in the file was ignored");
   }
   return mesh;

@@ -73,6 +73,7 @@ class HeaderReader : private HeaderLines {
     }
     if (element.count < 0) fail("the count " + std::to_string(element.count) + " is negative");
     if (!names_.insert(element.name).second) fail("an element is declared twice");
+    property_names_.clear();
     header_.elements.push_back(std::move(element));
   }
 
@@ -88,6 +89,10 @@ class HeaderReader : private HeaderLines {
     property.type = read_type(type);
     property.name = word();
     if (property.name.empty()) fail("a property has no name");
+    if (!property_names_.insert(property.name).second) {
+      fail("the property " + quoted(property.name, property.name.data()) +
+           " is there twice in an element");
+    }
     header_.elements.back().properties.push_back(std::move(property));
   }
 
@@ -99,7 +104,8 @@ class HeaderReader : private HeaderLines {
   }
 
   PlyHeader header_;
-  std::unordered_set<std::string> names_;  ///< of the elements
+  std::unordered_set<std::string> names_;           ///< of the elements
+  std::unordered_set<std::string> property_names_;  ///< of the last element
 };
 
 /// The least number of bytes one row takes in the body.

@@ -61,7 +61,6 @@ void read_faces(Body& body, const PlyElement& element, std::size_t corners,
                 std::int64_t vertex_count, RawMesh& mesh) {
   mesh.faces.reserve(static_cast<std::size_t>(element.count));
   FanBuilder fan(mesh.faces);
-  std::size_t skipped = 0;
   for (std::int64_t row = 0; row < element.count; ++row) {
     body.now_reading(element, row);
     for (std::size_t k = 0; k < element.properties.size(); ++k) {
@@ -71,13 +70,9 @@ void read_faces(Body& body, const PlyElement& element, std::size_t corners,
         skip(body, element.properties[k]);
       }
     }
-    if (fan.corners() < 3) ++skipped;
     fan.end(mesh.polygons);
   }
-  if (skipped > 0) {
-    mesh.notes.push_back(counted_text(skipped, "face", "faces") + " with fewer than 3 corners " +
-                         (skipped == 1 ? "was" : "were") + " left out");
-  }
+  note_left_out(fan.left_out(), mesh.notes);
 }
 
 /// Strips of triangles, which -1 separates, in the lists of some rows: as VCG and Stanford's

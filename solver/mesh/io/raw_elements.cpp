@@ -15,6 +15,11 @@ std::string text_of_others(const RawElements& raw) {
   return text;
 }
 
+Hint cure_of_others(const std::string& others, const char* needed) {
+  if (others.find(" corners (") == others.npos) return {needed};
+  return {"save it with straight elements, those of first order"};
+}
+
 RawMesh faces_of(RawElements raw) {
   for (const char* const kind : {"triangles", "triangle strips", "quads", "polygons"}) {
     raw.others.erase(kind);
@@ -27,7 +32,7 @@ RawMesh faces_of(RawElements raw) {
                           (others.empty() ? "" : " and " + others),
                       0,
                       {},
-                      {"a surface needs faces"}};
+                      cure_of_others(others, "a surface needs faces")};
   }
   if (!others.empty()) raw.notes.push_back("left out, being no faces: " + others);
   return std::move(static_cast<RawMesh&>(raw));

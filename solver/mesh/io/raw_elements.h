@@ -25,6 +25,10 @@ struct RawElements : RawMesh {
 /// "triangles (12), edges (3)".
 std::string text_of_others(const RawElements& raw);
 
+/// What to do about a file with no others than these (text_of_others()): curved ones have corners
+/// in the middle of edges, too. `needed`: what is said of all else.
+Hint cure_of_others(const std::string& others, const char* needed);
+
 /// The faces; what else there was is a note. Throws ReadFailure where there are none.
 RawMesh faces_of(RawElements raw);
 

@@ -14,6 +14,7 @@
 
 #include "geotherm/error.h"
 #include "geotherm/types.h"
+#include "solver/core/text.h"
 
 namespace geotherm::io {
 
@@ -49,20 +50,28 @@ class FanBuilder {
     ++count_;
   }
 
-  std::size_t corners() const { return count_; }
-
-  /// Ends the face; one of more than three corners is noted as a polygon.
+  /// Ends the face; one of more than three corners is noted as a polygon, one of fewer left out.
   void end(std::vector<Polygon>& polygons) {
     if (count_ > 3) polygons.push_back({faces_.size() - (count_ - 2), count_ - 2});
+    if (count_ < 3) ++left_out_;
     count_ = 0;
   }
+
+  std::size_t left_out() const { return left_out_; }
 
  private:
   std::vector<Face>& faces_;
   Index first_ = kNoIndex;
   Index last_ = kNoIndex;
-  std::size_t count_ = 0;
+  std::size_t count_ = 0, left_out_ = 0;
 };
+
+/// Says how many faces a FanBuilder left out; of none nothing.
+inline void note_left_out(std::size_t faces, std::vector<std::string>& notes) {
+  if (faces == 0) return;
+  notes.push_back(counted_text(faces, "face", "faces") + " with fewer than 3 corners " +
+                  (faces == 1 ? "was" : "were") + " left out");
+}
 
 /// The triangles of a strip, every other one of which turns the other way round. Those that repeat
 /// a corner only join parts of it and are left out.

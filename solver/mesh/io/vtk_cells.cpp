@@ -35,6 +35,12 @@ std::string vtk_cell_name(std::int64_t type) {
       return "prisms";
     case 14:
       return "pyramids";
+    case 22:
+      return "triangles with 6 corners";
+    case 23:
+      return "quads with 8 corners";
+    case 28:
+      return "quads with 9 corners";
     case 24:
       return "tetrahedra with 10 corners";
     default:
@@ -99,6 +105,7 @@ void add_vtk_cells(const VtkCells& cells, std::int64_t first, RawElements& raw) 
       fan.end(raw.polygons);
     }
   }
+  note_left_out(fan.left_out(), raw.notes);
 }
 
 }  // namespace geotherm::io

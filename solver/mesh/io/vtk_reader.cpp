@@ -127,19 +127,15 @@ class LegacyVtk {
     be_first(has_points_, "POINTS");
     const std::int64_t count = scanner_.words().integer();
     const NumberType type = this->type();
-    if (is_whole(type)) {
-      scanner_.fail("coordinates are neither float nor double");
-    }
     values(count, "points", 3 * size_of(type));
     scanner_.begin_values();
     raw_.positions.resize(values(count, "points", 3 * size_of(type)));
-    for (std::size_t v = 0; v < raw_.positions.size(); ++v) {
-      scanner_.now_reading("point", static_cast<std::int64_t>(v) + 1, count);
-      for (int axis = 0; axis < 3; ++axis) {
-        raw_.positions[v][axis] = type == NumberType::kFloat32 ? scanner_.coordinate<float>()
-                                                               : scanner_.coordinate<double>();
+    with_number_type(type, [&](auto zero) {
+      for (std::size_t v = 0; v < raw_.positions.size(); ++v) {
+        scanner_.now_reading("point", static_cast<std::int64_t>(v) + 1, count);
+        for (double& x : raw_.positions[v]) x = scanner_.coordinate<decltype(zero)>();
       }
-    }
+    });
     scanner_.end_values();
   }
 

@@ -101,7 +101,7 @@ bool is_unit_or_zero(const Vec3& v) {
 }  // namespace
 
 RawPoints read_xyz_points(std::string_view text) {
-  NumberLines lines(text.starts_with("\xef\xbb\xbf") ? text.substr(3) : text);
+  NumberLines lines(text);
   RawPoints out;
   bool may_have_normals = true, more_than_points = false, more_than_normals = false;
   while (lines.next_line()) {
