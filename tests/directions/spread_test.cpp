@@ -243,10 +243,10 @@ TEST(Spread, ByATimeThatIsShortForTheBorderSaysSo) {
 TEST(Transport, KeepsVectorsParallelOverASliverAtTheBorder) {
   Draft draft;
   for (const Vec3& p : {Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(1.1, 1, 0), Vec3(-0.2, 0.9, 0),
-                        Vec3(0.4, 0.45, 0), Vec3(0.37, -2e-5, 0)}) {
+                        Vec3(0.4, 0.45, 0), Vec3(0.37, 2e-5, 0)}) {
     draft.add(p);
   }
-  draft.faces = {{0, 5, 1}, {0, 1, 4}, {1, 2, 4}, {2, 3, 4}, {3, 0, 4}};
+  draft.faces = {{0, 1, 5}, {5, 1, 4}, {0, 5, 4}, {1, 2, 4}, {2, 3, 4}, {3, 0, 4}};
   const auto heat = spread_on(finish(draft));
   const auto found = heat->transport(std::vector<TangentVector>{{2, 1, 0}});
   ASSERT_TRUE(found);
@@ -274,8 +274,10 @@ TEST(Extend, StaysWithinTheRangeAtEdgesWithThreeFaces) {
                            ->extend(std::vector<Index>{1, kEdges - 2}, std::vector<double>{0, 1});
     ASSERT_TRUE(found);
     EXPECT_TRUE(found->warnings.empty()) << sentence(found->warnings.front());
-    EXPECT_LT(found->values[0], 0.01);
-    EXPECT_GT(found->values[kEdges], 0.99);
+    for (const double value : found->values) {
+      EXPECT_GT(value, 0) << backend;
+      EXPECT_LT(value, 1) << backend;
+    }
   }
 }
 
