@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The vector heat method on the intrinsic Delaunay triangulation.
+// The vector heat method on the triangulation of the heat method.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -18,15 +18,17 @@ namespace {
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
-/// The surface of a heat method, where it is that of vectors: flipped, without cover and inserted
-/// vertices, by the same backend.
+/// The surface of a heat method, where it is that of vectors: Delaunay with vertices inserted where
+/// they are needed, by the same backend.
 std::shared_ptr<const Surface> surface_of(const HeatMethod* method, const TriangleMesh* mesh,
                                           const Backend* backend) {
   const auto triangulation = method != nullptr ? method->delaunay_triangulation() : nullptr;
-  if (!triangulation || triangulation->refinement.points > 0) return nullptr;
+  if (!triangulation) return nullptr;
   auto surface = std::static_pointer_cast<const Surface>(triangulation);
+  const bool refined =
+      surface->asked == LaplacianKind::kAuto || surface->asked == LaplacianKind::kRefined;
   const bool same = surface->mesh.get() == mesh && surface->backend == backend;
-  return same ? surface : nullptr;
+  return refined && same ? surface : nullptr;
 }
 
 /// The power of two that brings the largest of some numbers to between 1 and 2; 0 where all are 0.
@@ -129,7 +131,7 @@ Result<std::shared_ptr<const VectorHeat>> VectorHeat::build(
   state->threads = thread_count(options.threads);
   state->surface = surface_of(beside, mesh.get(), *backend);
   if (!state->surface) {
-    auto surface = build_surface(mesh, **backend, LaplacianKind::kIntrinsicDelaunay, state->threads,
+    auto surface = build_surface(mesh, **backend, LaplacianKind::kAuto, state->threads,
                                  part_of(progress, 0, 0.5));
     if (!surface) return surface.error();
     state->surface = *std::move(surface);
@@ -179,7 +181,8 @@ Result<Spread> VectorHeat::transport(std::span<const TangentVector> vectors,
   Index loose = 0, lost = 0;
   const auto warmth = state.warm(*rows, true, out.warnings, part_of(progress, 0.2, 0.4));
   if (!warmth) return warmth.error();
-  const auto size = state.spread(*warmth, *rows, lengths, part_of(progress, 0.4, 0.5));
+  const auto size =
+      state.spread(*warmth, *rows, lengths, out.warnings, part_of(progress, 0.4, 0.5));
   if (!size) return size.error();
   const auto carried = state.carry(*warmth, *rows, given, part_of(progress, 0.5, 1));
   if (!carried) return carried.error();
@@ -192,8 +195,8 @@ Result<Spread> VectorHeat::transport(std::span<const TangentVector> vectors,
       out.vectors.push_back(Vec3::Constant(kNaN));
       continue;
     }
-    const double norm = std::abs((*carried)[row]);
-    const double factor = norm > 0 ? (*size)[row] / norm : 0;
+    const double norm = std::copysign(std::abs((*carried)[row]), warmth->heat.u(row, 0));
+    const double factor = norm != 0 ? (*size)[row] / norm : 0;
     const double x = std::ldexp((*carried)[row].real() * factor, exponent);
     const double y = std::ldexp((*carried)[row].imag() * factor, exponent);
     out.components.push_back({x, y});
@@ -234,7 +237,7 @@ Result<Spread> VectorHeat::extend(std::span<const Index> vertices, std::span<con
   Index loose = 0, lost = 0;
   const auto warmth = state.warm(*rows, false, out.warnings, part_of(progress, 0, 0.5));
   if (!warmth) return warmth.error();
-  const auto spread = state.spread(*warmth, *rows, scaled, part_of(progress, 0.5, 1));
+  const auto spread = state.spread(*warmth, *rows, scaled, out.warnings, part_of(progress, 0.5, 1));
   if (!spread) return spread.error();
   out.t = warmth->t * state.unit() * state.unit();
   for (Index v = 0; v < state.mesh().vertex_count(); ++v) {

@@ -70,9 +70,9 @@ struct VectorHeat::State {
   /// the range of doubles where vectors need it: by a factor.
   Result<Warmth> warm(std::span<const Index> rows, bool for_vectors, std::vector<Warning>& warnings,
                       const Progress& progress) const;
-  /// One value for each of the rows at all rows, as the nearest has it.
+  /// One value for each of the rows at all rows, as the nearest has it: within their range.
   Result<std::vector<double>> spread(const Warmth& warmth, std::span<const Index> rows,
-                                     std::span<const double> values,
+                                     std::span<const double> values, std::vector<Warning>& warnings,
                                      const Progress& progress) const;
   /// One vector for each of the rows, as the nearest has it; a row may stand in the list several
   /// times. Errors: VectorParts::broken.

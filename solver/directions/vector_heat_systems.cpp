@@ -19,6 +19,28 @@ using Complex = std::complex<double>;
 constexpr int kMaxTimes = 20;
 /// The share of the largest heat down to which conjugate gradients give seven digits.
 constexpr double kMinHeat = 1e-6;
+/// The share of the range of values by which rounding and iterations may lead out of it.
+constexpr double kRangeRounding = 1e-5;
+
+/// Says at how many vertices of the mesh heat is not what a mean is made of: the triangulation
+/// keeps border edges opposite angles of up to 96 degrees, whose weights are a little below 0, and
+/// these outweigh the others where faces are far wider than t reaches. is_wrong(row): of those
+/// reached.
+template <class IsWrong>
+void note_negative_heat(const Surface& surface, const std::vector<char>& reached, const char* what,
+                        const IsWrong& is_wrong, std::vector<Warning>& warnings) {
+  Index vertices = 0, wrong = 0;
+  for (Index row = 0; row < surface.size(); ++row) {
+    if (reached[row] == 0 || !surface.is_of_input(row)) continue;
+    ++vertices;
+    if (is_wrong(row)) ++wrong;
+  }
+  if (wrong == 0) return;
+  warnings.push_back({what + (" at " + std::to_string(wrong)) + " of " + std::to_string(vertices) +
+                          " vertices, since the diffusion time is short for the faces at the "
+                          "border; what is said there may not be that of the nearest",
+                      {"raise ", SettingHint{"time-factor"}}});
+}
 
 }  // namespace
 
@@ -66,14 +88,28 @@ Result<Warmth> VectorHeat::State::warm(std::span<const Index> rows, bool for_vec
     warnings.push_back({"the mesh is so wide that the diffusion time is " +
                         rounded_text(out.t / t) + " times as long as asked for"});
   }
+  note_negative_heat(
+      *surface, out.reached, "heat is not positive",
+      [&out](Index row) { return !(out.heat.u(row, 0) > 0); }, warnings);
   return out;
 }
 
 Result<std::vector<double>> VectorHeat::State::spread(const Warmth& warmth,
                                                       std::span<const Index> rows,
                                                       std::span<const double> values,
+                                                      std::vector<Warning>& warnings,
                                                       const Progress& progress) const {
   std::vector<double> out;
+  const auto [low, high] = std::ranges::minmax(values);
+  const double range = high > low ? high - low : 1;
+  const auto keep_in_range = [&, low = low, high = high] {
+    std::vector<double> means = out;
+    for (double& value : out) value = std::clamp(value, low, high);
+    note_negative_heat(
+        *surface, warmth.reached, "values had left their range",
+        [&](Index row) { return std::abs(means[row] - out[row]) > kRangeRounding * range; },
+        warnings);
+  };
   if (warmth.scaled) {
     const ScaledHeat scaled(find_links(nullptr), surface->mass(), warmth.t, warmth.heat, false);
     std::vector<Complex> right;
@@ -81,11 +117,11 @@ Result<std::vector<double>> VectorHeat::State::spread(const Warmth& warmth,
     const auto both = scaled.solve(rows, right, progress);
     if (!both) return both.error();
     for (const Complex& x : *both) out.push_back(x.imag() / x.real());
+    keep_in_range();
     return out;
   }
   // Above the least value all is positive and not far from the heat.
-  const auto [low, high] = std::ranges::minmax(values);
-  const double range = high > low ? high - low : 1, offset = low - range;
+  const double offset = low - range;
   const Components& parts = surface->parts_of_rows();
   std::vector<std::vector<char>> reached(1, std::vector<char>(parts.count, 0));
   for (const Index row : rows) reached[0][parts.of[row]] = 1;
@@ -103,6 +139,7 @@ Result<std::vector<double>> VectorHeat::State::spread(const Warmth& warmth,
                          std::pow(heat->step, level(*heat, i) - level(warmth.heat, i));
     out.push_back(offset + range * ratio);
   }
+  keep_in_range();
   return out;
 }
 
@@ -125,13 +162,14 @@ Result<const VectorParts*> VectorHeat::State::vector_parts(const Progress& progr
     out->frames[v] = out->directions->frame_at(SurfacePoint::at_vertex(own));
   }
   out->flipped = flip_directions(*surface, fans);
-  out->links = find_links(&out->flipped);
   if (out->flipped.broken) {
     out->broken = Error{ErrorCode::kBadInput,
                         "vectors cannot be carried where the surface is no oriented manifold, "
                         "as at vertex " +
                             std::to_string(*out->flipped.broken),
                         {"repair the mesh; log maps and values need no such"}};
+  } else {
+    out->links = find_links(&out->flipped);
   }
   parts_ = std::move(out);
   return parts_.get();
@@ -163,7 +201,7 @@ Result<VectorHeat::State::VectorFactor> VectorHeat::State::vector_factor(
   if (factor_ && factor_->t == time) return *factor_;
   if (!doubled_) {
     std::vector<Vec3> places;
-    for (const Index v : surface->vertex_of_row) places.push_back(mesh().positions()[v]);
+    for (const Index v : surface->vertex_of_row) places.push_back(surface->position(v));
     std::vector<Face> faces(surface->operators->faces.begin(), surface->operators->faces.end());
     auto system = SpreadSystem::build_doubled(*surface->backend, *surface->analysis,
                                               pattern_of_faces(size(), faces), places, threads);

@@ -205,7 +205,7 @@ std::vector<Side> split_side(IntrinsicMesh& mesh, Side side, double share, Index
                      cut.fresh,
                      Edit::Kind::kSideSplit,
                      static_cast<std::int8_t>(cut.start),
-                     0,
+                     static_cast<std::int8_t>(i),
                      {cut.share}});
     around.push_back(3 * cut.face + 2);
     around.push_back(3 * cut.fresh + 1);

@@ -24,7 +24,8 @@ struct Edit {
     /// db.
     kFlip,
     /// A vertex p on the side from a to b of f = (a, b, c), from `start_f` on, cuts the face in
-    /// two: f = (a, p, c), g = (p, b, c). `numbers`: the share |ap| / |ab|.
+    /// two: f = (a, p, c), g = (p, b, c). `numbers`: the share |ap| / |ab|. `start_g`: 1 in the
+    /// second face of an edge with two, else 0.
     kSideSplit,
     /// A vertex p in f = (a, b, c) cuts it in three: f = (a, b, p), g = (b, c, p),
     /// g + 1 = (c, a, p). `numbers`: the barycentric weights of p.

@@ -193,10 +193,12 @@ TEST(Transport, ByIterationsIsThatByFactorsEverywhere) {
 
 /// What a heat method has is used, and gives the same bits.
 TEST(Transport, BesideAHeatMethodIsTheSame) {
-  for (const Draft& draft : {sphere(3), jittered_plane(14, 0.4, 8)}) {
+  Index inserted = 0;
+  for (const Draft& draft : {sphere(3), jittered_plane(14, 0.4, 8), random_delaunay(200, 3)}) {
     const MeshPtr mesh = finish(draft);
     const auto method = HeatMethod::build(mesh);
     ASSERT_TRUE(method);
+    inserted += method->refinement().points;
     const auto beside = VectorHeat::build(mesh, {}, {}, &*method);
     ASSERT_TRUE(beside);
     const std::vector<TangentVector> vectors = {{3, 1, 0}, {70, -0.5, 2}};
@@ -205,6 +207,7 @@ TEST(Transport, BesideAHeatMethodIsTheSame) {
     ASSERT_TRUE(alone && shared);
     EXPECT_EQ(alone->components, shared->components);
   }
+  EXPECT_GT(inserted, 0);
 }
 
 INSTANTIATE_TEST_SUITE_P(Shapes, VectorHeatAgainstDense,

@@ -169,13 +169,13 @@ struct Spread {
 
 /// The vector heat method (Sharp, Soliman, Crane 2019): vectors carried along shortest paths from
 /// their nearest source without turning, and values extended as the nearest source has them, by
-/// short diffusion on the intrinsic Delaunay triangulation. Immutable; several threads may ask at
-/// once.
+/// short diffusion on the triangulation of the heat method, whose inserted vertices no answer has.
+/// Immutable; several threads may ask at once.
 class VectorHeat {
  public:
   /// `beside`: a method on the same mesh, whose triangulation, matrices and analysis are shared
-  /// where it has the same backend and a triangulation that is Delaunay, without a cover and
-  /// inserted vertices; the answers are those without it. Errors: kBadInput (no face with area, a
+  /// where it has the same backend, LaplacianKind::kAuto or kRefined, and a triangulation without
+  /// a cover; the answers are those without it. Errors: kBadInput (no face with area, a
   /// time factor that is not above 0), kNotAvailable (no such backend), those of the backend. Cost:
   /// a factorisation of V rows; the first call about vectors or signs adds one of 2 V in the same
   /// elimination order. Backends that iterate factorise nothing.
@@ -191,14 +191,16 @@ class VectorHeat {
 
   /// Vectors at all vertices. Their lengths are extended like values. Where the mesh is so wide
   /// that heat falls below the smallest double, backends that factorise make the time longer for
-  /// this call, and a warning says so; another says how many vertices have no vector. Errors:
+  /// this call, and a warning says so; others say how many vertices have no vector, and at how many
+  /// the time was too short for the faces at the border, so that heat is not positive. Errors:
   /// kBadInput (no vector, a vertex out of range or in no face, two different vectors at one
   /// vertex, numbers that are not finite; a mesh that is no oriented manifold, with the vertex),
   /// those of the backend.
   Result<Spread> transport(std::span<const TangentVector> vectors,
                            const Progress& progress = {}) const;
 
-  /// Values at all vertices; on any mesh. Errors: the same, and not as many values as vertices.
+  /// Values at all vertices, within the range of those given; on any mesh. Errors: the same, and
+  /// not as many values as vertices.
   Result<Spread> extend(std::span<const Index> vertices, std::span<const double> values,
                         const Progress& progress = {}) const;
 
