@@ -191,12 +191,34 @@ Circumcentre find_circumcentre(const IntrinsicMesh& mesh, Index face) {
   return {};
 }
 
+using BoundaryEnds = std::pair<Index, Index>;
+
+BoundaryEnds ends_of_boundary(const IntrinsicMesh& mesh, Side side) {
+  const Face& face = mesh.faces[face_of(side)];
+  return std::minmax({face[corner_of(side)], face[next_corner(corner_of(side))]});
+}
+
+/// The ends of edges whose sides are nobody's twins and yet several: with three faces or more, or
+/// between two that disagree in orientation. A vertex on one side alone would open a slit.
+std::vector<BoundaryEnds> joined_boundary(const IntrinsicMesh& mesh) {
+  std::vector<BoundaryEnds> ends, out;
+  for (Side side = 0; side < static_cast<Side>(mesh.twin.size()); ++side) {
+    if (mesh.twin[side] == kNoSide) ends.push_back(ends_of_boundary(mesh, side));
+  }
+  std::ranges::sort(ends);
+  for (std::size_t i = 1; i < ends.size(); ++i) {
+    if (ends[i] == ends[i - 1]) out.push_back(ends[i]);
+  }
+  return out;
+}
+
 class Refiner {
  public:
   Refiner(IntrinsicMesh& mesh, std::vector<Edit>& edits, Components& parts,
           std::span<const double> part_edge, std::span<const Vec3> positions, Index most,
           Refinement& out)
       : mesh_(mesh), edits_(edits), parts_(parts), positions_(positions), most_(most), out_(out) {
+    joined_ = joined_boundary(mesh);
     for (std::size_t c = 0; c < part_edge.size(); ++c) {
       root_t_.push_back(part_edge[c] * std::sqrt(out.grading[c]));
     }
@@ -297,6 +319,7 @@ class Refiner {
     const Side other = mesh_.twin[side];
     if (other != kNoSide && face_of(other) == face_of(side)) return;  // glued to itself
     const bool boundary = other == kNoSide;
+    if (boundary && std::ranges::binary_search(joined_, ends_of_boundary(mesh_, side))) return;
     Weights at{};
     at[corner_of(side)] = 1 - share;
     at[next_corner(corner_of(side))] = share;
@@ -349,6 +372,7 @@ class Refiner {
   std::span<const Vec3> positions_;
   const Index most_;
   Refinement& out_;
+  std::vector<BoundaryEnds> joined_;
   std::vector<double> root_t_;                           ///< per part
   std::vector<Side> obtuse_;                             ///< boundary sides, looked at again
   std::priority_queue<std::pair<double, Index>> large_;  ///< faces by size, looked at again

@@ -23,6 +23,7 @@ class WindowMesh {
   static constexpr std::int32_t kBoundary = -1;
   static constexpr std::int32_t kBranch = -2;  ///< kBranch - i: the non-manifold edge i of those
 
+  /// Precondition: no inserted vertices.
   explicit WindowMesh(const WaveSurface& surface);
 
   const SideFrame& side(Side s) const { return sides_[static_cast<std::size_t>(s)]; }

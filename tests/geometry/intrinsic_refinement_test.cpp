@@ -8,6 +8,7 @@
 #include <cmath>
 #include <string>
 
+#include "geotherm/heat_method.h"
 #include "solver/geometry/intrinsic_surface.h"
 #include "tests/support/shapes.h"
 
@@ -209,11 +210,13 @@ TEST(RefinementsOfRibbons, EndAtTheLimitWithAWarning) {
   Draft ribbon = plane_grid(1500, 1, 1500, 0.002);
   for (Vec3& p : ribbon.positions) p.x() += p.y() > 0 ? 0.05 : 0;
   const MeshPtr mesh = finish(ribbon);
-  const IntrinsicSurface surface = *build_intrinsic_surface(mesh, kRefine);
-  EXPECT_FALSE(surface.refinement.complete);
-  EXPECT_EQ(surface.refinement.points, mesh->vertex_count() + 1000);
-  const std::string number = std::to_string(surface.refinement.points) + " vertices were inserted";
-  EXPECT_TRUE(std::ranges::any_of(surface.warnings, [&](const Warning& warning) {
+  const auto heat = HeatMethod::build(mesh);
+  ASSERT_TRUE(heat);
+  const RefinementCounts& inserted = heat->refinement();
+  EXPECT_FALSE(inserted.complete);
+  EXPECT_EQ(inserted.points, mesh->vertex_count() + 1000);
+  const std::string number = std::to_string(inserted.points) + " vertices were inserted";
+  EXPECT_TRUE(std::ranges::any_of(heat->warnings(), [&](const Warning& warning) {
     return warning.message.find(number) != std::string::npos;
   }));
 }

@@ -12,7 +12,7 @@ namespace geotherm::test {
 namespace {
 
 double windows_per_face(const Draft& draft, Index source) {
-  const auto surface = build_wave_surface(finish(draft));
+  const auto surface = build_wave_surface(finish(draft), RefineRule::kNever);
   EXPECT_TRUE(surface);
   const auto seeds = seed_sources(**surface, SourceSet::of_vertices({source}));
   EXPECT_TRUE(seeds);
@@ -46,7 +46,7 @@ TEST(ExactWindows, OfAPlaneAreFewHoweverFineItIs) {
 }
 
 TEST(ExactWindows, FillNoMoreMemoryThanTheyMay) {
-  const auto surface = build_wave_surface(finish(sphere(4)));
+  const auto surface = build_wave_surface(finish(sphere(4)), RefineRule::kNever);
   ASSERT_TRUE(surface);
   const auto seeds = seed_sources(**surface, SourceSet::of_vertices({0}));
   ASSERT_TRUE(seeds);
@@ -80,7 +80,7 @@ TEST(ExactWindows, OfFacesFarBelowTheMeanAreNotFollowedAgainAndAgain) {
 }
 
 TEST(ExactWindows, AreForeseenWhereTheyAreTooMany) {
-  const auto surface = build_wave_surface(finish(rising_strip(10'000, 1e3)));
+  const auto surface = build_wave_surface(finish(rising_strip(10'000, 1e3)), RefineRule::kNever);
   ASSERT_TRUE(surface);
   const auto seeds = seed_sources(**surface, SourceSet::of_vertices({0}));
   ASSERT_TRUE(seeds);

@@ -3,7 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
+#include <numbers>
 #include <random>
 #include <vector>
 
@@ -98,8 +100,8 @@ class BorderSlivers : public testing::TestWithParam<unsigned> {
 };
 
 TEST_P(BorderSlivers, LeaveDistancesAndLabelsOfWavesRight) {
-  // What the verdict on others takes waves to be wrong by, of the range (docs/numerics.md).
-  constexpr double kTaken = 0.005;
+  // What waves are off by on random meshes at most, of the range (docs/numerics.md).
+  constexpr double kTaken = 0.015;
   std::vector<double> exact;
   for (Index v = 0; v < mesh->vertex_count(); ++v) {
     double least = kUnreached;
@@ -130,6 +132,23 @@ TEST_P(BorderSlivers, ChangeNothingForMethodsThatInsertNoVertices) {
     const auto sharing = build_method(mesh, options, {}, *waves);
     ASSERT_TRUE(sharing);
     EXPECT_EQ(solve(**sharing, set).distances, distances(mesh, kind, set)) << kind_name(kind);
+  }
+}
+
+/// Three pages at one edge, flat triangles: a vertex on the edge of one page alone would be a slit.
+TEST(FlatPages, AreCrossedAtTheirCommonEdge) {
+  constexpr double kHeight = 0.1, kThird = 2 * std::numbers::pi / 3;
+  Draft book;
+  book.positions = {{0, 0, 0}, {1, 0, 0}};
+  for (int page = 0; page < 3; ++page) {
+    book.positions.emplace_back(0.5, kHeight * std::cos(page * kThird),
+                                kHeight * std::sin(page * kThird));
+    book.faces.push_back({0, 1, 2 + page});
+  }
+  const MeshPtr mesh = finish(book);
+  for (const MethodKind kind : kRoundWaves) {
+    const auto d = distances(mesh, kind, SourceSet::of_vertices({2}));
+    for (const Index other : {3, 4}) EXPECT_NEAR(d[other], 2 * kHeight, 1e-12) << kind_name(kind);
   }
 }
 
