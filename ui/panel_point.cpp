@@ -26,7 +26,7 @@ void draw_position(Frame& frame, const Vec3& position) {
 void draw_figures(Frame& frame, const SurfacePoint& point) {
   const app::PointFigures figures = app::figures_at(frame.explored(), frame.state().shown, point);
   draw_value(frame, "distance", figures.distance ? length_text(*figures.distance) : "\u2013", "",
-             "Interpolated between the corners, model units.");
+             "Interpolated between the corners, straight to a source in the face; model units.");
   if (figures.difference) {
     draw_value(frame, "A \u2212 B", length_text(*figures.difference), "", "d_A \u2212 d_B here.");
   }

@@ -8,6 +8,7 @@
 #include "app/picture/picture_scale.h"
 #include "app/session/wording.h"
 #include "app/text/text.h"
+#include "solver/accuracy/distance_bounds.h"
 #include "solver/heat/heat_step.h"
 
 namespace geotherm::app {
@@ -27,6 +28,56 @@ double value_at(const TriangleMesh& mesh, std::span<const double> values,
     if (point.weights[k] > 0) sum += point.weights[k] * values[corners_of(mesh, point)[k]];
   }
   return sum;
+}
+
+/// Whether a face has a point inside, on its border or as a corner.
+bool has_point(const TriangleMesh& mesh, const Face& face, const SurfacePoint& point) {
+  const auto is_corner = [&face](Index v) { return std::ranges::find(face, v) != face.end(); };
+  if (point.is_vertex()) return is_corner(point.vertex);
+  for (int k = 0; k < 3; ++k) {
+    if (point.weights[k] > 0 && !is_corner(corners_of(mesh, point)[k])) return false;
+  }
+  return true;
+}
+
+/// The straight line within the face of a point to the nearest source in that face; infinite where
+/// it has none.
+double straight_within_face(const TriangleMesh& mesh, const SourceSet& sources,
+                            const SurfacePoint& point) {
+  const Face& face = corners_of(mesh, point);
+  std::vector<LineSource> lines;
+  const auto add = [&](const SurfacePoint& from, const SurfacePoint& to, double offset) {
+    if (!has_point(mesh, face, from) || !has_point(mesh, face, to)) return;
+    lines.push_back({position_at(mesh, from), position_at(mesh, to), offset});
+  };
+  for (std::size_t i = 0; i < sources.points.size(); ++i) {
+    const SurfacePoint& source = sources.points[i];
+    add(source, source, sources.offsets.empty() ? 0 : sources.offsets[i]);
+  }
+  for (const auto& [low, high] : sources.edges) {
+    add(SurfacePoint::at_vertex(low), SurfacePoint::at_vertex(high), 0);
+  }
+  for (const FaceSegment& segment : sources.segments) {
+    add(SurfacePoint::in_face(segment.face, segment.from),
+        SurfacePoint::in_face(segment.face, segment.to), 0);
+  }
+  const Vec3& corner = mesh.positions()[face[0]];
+  const double unit = std::max((mesh.positions()[face[1]] - corner).cwiseAbs().maxCoeff(),
+                               (mesh.positions()[face[2]] - corner).cwiseAbs().maxCoeff());
+  if (lines.empty() || !(unit > 0)) return kUnreached;
+  const StraightLine straight(lines, unit);
+  return straight.length(straight.place(position_at(mesh, point))) * unit;
+}
+
+/// The distance at a point: between the corners it is interpolated, which in a face with sources
+/// would be too long near them.
+double shown_distance(const Answer& answer, const SurfacePoint& point) {
+  const TriangleMesh& mesh = *answer.model.mesh;
+  const double distance = value_at(mesh, answer.result.distances, point);
+  const bool at_corner = point.is_vertex() || std::ranges::max(point.weights) == 1;
+  if (at_corner || !answer.model.is_mesh()) return distance;
+  const double straight = straight_within_face(mesh, answer.sources, point);
+  return straight <= answer.reach.max_distance ? std::min(distance, straight) : distance;
 }
 
 }  // namespace
@@ -64,10 +115,14 @@ PointFigures figures_at(const Explored& explored, Shown shown, const SurfacePoin
   }
   const Answer* answer = shown_answer(explored, shown);
   if (answer != nullptr) {
-    figures.distance = value_at(mesh, answer->result.distances, point);
+    figures.distance = shown_distance(*answer, point);
     if (!answer->result.heat.empty()) figures.heat = value_at(mesh, answer->result.heat, point);
   }
-  if (explored.difference) figures.difference = value_at(mesh, explored.difference->values, point);
+  if (explored.difference) {
+    const double difference =
+        shown_distance(*explored.a, point) - shown_distance(*explored.b, point);
+    figures.difference = std::isfinite(difference) ? difference : kUnreached;
+  }
   return figures;
 }
 

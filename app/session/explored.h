@@ -79,7 +79,9 @@ struct PointFigures {
   SurfacePoint point;
   Index nearest_vertex = kNoIndex;
   Vec3 position = Vec3::Zero();
-  std::optional<double> distance;  ///< interpolated; infinite: not reached
+  /// Interpolated, and at most the straight line to a source of the same face; infinite: not
+  /// reached.
+  std::optional<double> distance;
   std::optional<double> heat;      ///< u where the answer holds it
   std::optional<double> difference;
 };

@@ -217,5 +217,28 @@ TEST_F(SessionTruth, ComparesMethodsWithTheirErrors) {
   EXPECT_FALSE(rows[2].mean_error) << "there is nothing better to hold it against";
 }
 
+TEST_F(SessionTruth, DistanceUnderThePointerIsAtMostStraightToASourceInTheFace) {
+  const std::string source = "face:100:0.25:0.25:0.5";
+  run({"open " + small_model(), "method exact", "check off", "source set " + source, "keep"});
+  const auto figures = [this](std::array<double, 3> weights) {
+    return figures_at(session.explored(), Shown::kA, SurfacePoint::in_face(100, weights));
+  };
+  const Vec3 here = figures({0.25, 0.25, 0.5}).position;
+  EXPECT_EQ(figures({0.25, 0.25, 0.5}).distance, 0);
+  EXPECT_EQ(figures({0.25, 0.25, 0.5}).difference, 0);
+  const PointFigures near = figures({0.25, 0.5, 0.25});
+  EXPECT_NEAR(*near.distance, (near.position - here).norm(), 1e-12);
+  const Index corner = session.explored().model->model.mesh->faces()[100][1];
+  EXPECT_EQ(figures({0, 1, 0}).distance, session.explored().a->result.distances[corner]);
+
+  run({"source set " + source + "@0.5"});
+  EXPECT_NEAR(*figures({0.25, 0.25, 0.5}).distance, 0.5, 1e-12);
+  run({"source set " + std::to_string(corner)});
+  const double edge = (figures({1, 0, 0}).position - figures({0, 1, 0}).position).norm();
+  EXPECT_NEAR(*figures({0.5, 0.5, 0}).distance, edge / 2, 1e-12);
+  run({"source set curve:face:100:0.5:0.25:0.25,face:100:0.25:0.25:0.5"});
+  EXPECT_NEAR(*figures({0.375, 0.25, 0.375}).distance, 0, 1e-12) << "on the curve";
+}
+
 }  // namespace
 }  // namespace geotherm::app
