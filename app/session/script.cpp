@@ -193,6 +193,18 @@ void CommandLog::fail_last_open() {
   line->command.reset();
 }
 
+void CommandLog::fail_last_frame(bool all) {
+  for (auto line = lines_.rbegin(); line != lines_.rend(); ++line) {
+    if (!line->command) continue;
+    const bool begins = std::holds_alternative<command::ShowSequence>(*line->command);
+    const bool plays = all && std::holds_alternative<command::Play>(*line->command);
+    if (!begins && !plays && !std::holds_alternative<command::ShowFrame>(*line->command)) continue;
+    line->comment = "not shown: " + to_text(*line->command);
+    line->command.reset();
+    if (begins || !all) return;
+  }
+}
+
 void CommandLog::drop_last(const Command& command) {
   const auto line = std::find_if(lines_.rbegin(), lines_.rend(), [&command](const Line& l) {
     return l.command && *l.command == command;

@@ -38,6 +38,8 @@ class CommandLog {
   bool add(const Command& command, const ViewerState& after);
   /// The last `open` did not open anything: it becomes a comment, so that the log can be replayed.
   void fail_last_open();
+  /// The same of the last `frame`; `all`: of the last `sequence`, and what was shown of it.
+  void fail_last_frame(bool all);
   /// The last line of a command that failed only after it was added goes.
   void drop_last(const Command& command);
   /// A line that is no command.

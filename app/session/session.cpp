@@ -90,6 +90,40 @@ void Session::State::step_back(std::vector<ViewerState>& from, std::vector<Viewe
   last_undoable.reset();
 }
 
+/// The model does not open: the one before it is still there. False: none was being opened.
+bool Session::State::close_opening() {
+  if (!before_opening) return false;
+  state = std::move(before_opening->state);
+  opening = before_opening->opening;
+  undo = std::move(before_opening->undo);
+  redo = std::move(before_opening->redo);
+  before_opening.reset();
+  requested = answered;
+  commands.fail_last_open();
+  return true;
+}
+
+/// A frame does not show: the one before it is shown again, or none where there was none. False:
+/// that was asked for.
+bool Session::State::leave_frame() {
+  Timeline before;
+  before.loop = state.timeline.loop;
+  if (answered && answered->opening == opening) {
+    before.sequence = answered->pose.sequence;
+    before.frame = answered->pose.frame;
+  }
+  const bool same_sequence = before.sequence == state.timeline.sequence;
+  if (same_sequence && before.frame == state.timeline.frame) return false;
+  state.timeline = before;
+  commands.fail_last_frame(!same_sequence);
+  if (!before.sequence.empty()) {
+    commands.add(command::ShowFrame{before.frame}, state);
+    commands.add(command::Play{false}, state);
+  }
+  requested = answered;
+  return true;
+}
+
 Result<void> Session::State::perform(const Command& command, const Session& session, Giver giver) {
   note_asked(command);
   if (std::holds_alternative<command::Undo>(command)) {

@@ -78,6 +78,8 @@ struct Session::State {
   std::string lines_to_blame(ExplorePart part) const;
   Result<void> check_picked(const ViewerState& next) const;
   void step_back(std::vector<ViewerState>& from, std::vector<ViewerState>& to);
+  bool close_opening();
+  bool leave_frame();
   void note(LogLine::Kind kind, std::string text, Hint hint = {});
   void note(LogLine::Kind kind, const Warning& said) { note(kind, said.message, said.hint); }
   void note(const Error& error) { note(LogLine::Kind::kError, warning_of(error)); }
@@ -90,7 +92,6 @@ struct Session::State {
   void start(const ExploreRequest& request);
   bool take();
   void say_failure(const Error& error, ExplorePart part);
-  bool close_opening();
   void look_head_on();
   bool take_more_of_model(const std::shared_ptr<const ExploredModel>& model);
   void note_model(const ExploredModel& before);

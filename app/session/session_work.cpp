@@ -208,19 +208,6 @@ void Session::State::say_failure(const Error& error, ExplorePart part) {
   note(error);
 }
 
-/// The model does not open: the one before it is still there. False: none was being opened.
-bool Session::State::close_opening() {
-  if (!before_opening) return false;
-  state = std::move(before_opening->state);
-  opening = before_opening->opening;
-  undo = std::move(before_opening->undo);
-  redo = std::move(before_opening->redo);
-  before_opening.reset();
-  requested = answered;
-  commands.fail_last_open();
-  return true;
-}
-
 void Session::State::take_answer(const ExploreRequest& request, Result<Explored> answer,
                                  ExplorePart part) {
   const bool is_last = requested && requested->covers(request) && request.covers(*requested);
@@ -233,7 +220,8 @@ void Session::State::take_answer(const ExploreRequest& request, Result<Explored>
     }
     const bool said = cancelled && !failure.empty();
     if (!said) say_failure(answer.error(), part);
-    if (close_opening() && explored.model) refresh();
+    const bool no_frame = !cancelled && part == ExplorePart::kFrame;
+    if (close_opening() ? explored.model != nullptr : no_frame && leave_frame()) refresh();
     return;
   }
   if (request.opening != opening) return;  // of a model that is no longer wanted

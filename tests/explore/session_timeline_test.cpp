@@ -121,6 +121,30 @@ TEST_F(SessionTimeline, StrokesLieOnTopOfEveryFrameAndUndoLeavesTheFrame) {
   EXPECT_EQ(positions(), first);
 }
 
+TEST_F(SessionTimeline, FramesThatDoNotShowLeaveTheOneThatDoes) {
+  run({"open " + small_model(), "source set 5"});
+  const std::string missing = "sequence " + folder() + "none_%d.ply";
+  EXPECT_NE(refused(missing), "done: " + missing);
+  EXPECT_FALSE(session.stale());
+  run({"source set 6", "sequence " + frames(), "frame 1", "play on"});
+  const auto first = positions();
+  write(frame(2), "no mesh");
+  for (const std::string& line : {std::string("frame 2"), std::string("frame 99"), missing}) {
+    EXPECT_NE(refused(line), "done: " + line);
+    EXPECT_EQ(session.state().timeline, (Timeline{folder() + "frame_%d.ply", 1})) << line;
+    EXPECT_FALSE(session.stale()) << line;
+    EXPECT_EQ(session.failure(), "") << line;
+    EXPECT_EQ(positions(), first) << line;
+  }
+  run({"method exact"});
+  EXPECT_EQ(session.explored().a->options.method, MethodKind::kExact);
+  write(folder() + "log.geotherm", session.script());
+  Session again;
+  const auto ran = again.submit(command::Run{folder() + "log.geotherm"});
+  ASSERT_TRUE(ran) << ran.error().message;
+  EXPECT_EQ(again.state(), session.state());
+}
+
 TEST_F(SessionTimeline, SaysWhatIsWrongWithFrames) {
   EXPECT_NE(refused("sequence a.npy").find("open one first"), std::string::npos);
   run({"open " + small_model()});
@@ -128,8 +152,10 @@ TEST_F(SessionTimeline, SaysWhatIsWrongWithFrames) {
             "there are no frames; name those of a surface that moves: sequence FRAMES");
   EXPECT_NE(refused("play on").find("there are no frames"), std::string::npos);
   EXPECT_NE(refused("sequence " + folder() + "missing.npy").find("missing.npy"), std::string::npos);
+  EXPECT_EQ(session.state().timeline, Timeline());
   run({"sequence " + frames()});
   EXPECT_EQ(refused("frame 4"), "there is no frame 4; frames are 0 to 3");
+  EXPECT_EQ(session.state().timeline.frame, 0);
   EXPECT_NE(refused("frame -1").find("column 7"), std::string::npos);
   run({"frame 0"});
   EXPECT_FALSE(session.stale());
