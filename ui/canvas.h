@@ -33,8 +33,9 @@ void draw_canvas_overlay(Frame& frame);
 /// was written.
 void take_notices(Frame& frame);
 
-/// What take_notices() and clicks have to say, for a while.
-void draw_notices(Frame& frame);
+/// What take_notices() and clicks have to say, for a while. `below`: what else lies at the lower
+/// edge of the picture, pixels.
+void draw_notices(Frame& frame, float below);
 
 /// What the sculpting brush does on a stroke of the mouse; nothing where that is another one.
 std::optional<app::SculptTool> sculpt_tool(MouseAction action, app::SculptTool chosen);
@@ -57,8 +58,9 @@ float sculpt_ring(const Frame& frame, const std::optional<SurfacePoint>& hovered
 /// The tools of the sculpting brush, over the picture while it is on.
 void draw_sculpt_bar(Frame& frame);
 
-/// Play, step, loop and scrub, over the picture while there is a sequence.
-void draw_timeline(Frame& frame);
+/// Play, step, loop and scrub, over the picture while there is a sequence. How far that reaches up
+/// from the lower edge of the picture, pixels.
+float draw_timeline(Frame& frame);
 
 /// Sends the next frame when the one that is shown has its distances and its time is over. True:
 /// it is not over yet.

@@ -84,7 +84,7 @@ void draw_reading(Frame& frame) {
 }
 
 /// A small label on the picture, its middle at `at`.
-void draw_badge(Frame& frame, ImVec2 at, const std::string& text) {
+Rect draw_badge(Frame& frame, ImVec2 at, const std::string& text) {
   const ImVec2 size = ImGui::CalcTextSize(text.c_str());
   const ImVec2 pad(frame.px(9), frame.px(3));
   const ImVec2 low(std::floor(at.x - size.x / 2 - pad.x), std::floor(at.y - size.y / 2 - pad.y));
@@ -93,6 +93,7 @@ void draw_badge(Frame& frame, ImVec2 at, const std::string& text) {
   list->AddRectFilled(low, high, packed(faded(frame.colours().panel, 0.92F)), frame.px(4));
   list->AddRect(low, high, packed(frame.colours().border), frame.px(4));
   list->AddText({low.x + pad.x, low.y + pad.y}, packed(frame.colours().text), text.c_str());
+  return {low.x, low.y, high.x - low.x, high.y - low.y};
 }
 
 void draw_shown_badge(Frame& frame) {
@@ -104,7 +105,9 @@ void draw_shown_badge(Frame& frame) {
   if (equal && frame.state().shown == app::Shown::kDifference) text += "  \u00b7  equal";
   const Rect& canvas = frame.ui.places.canvas;
   const float down = frame.ui.input.tool == Tool::kSculpt ? 62 : 20;  // below the bar of the tools
-  draw_badge(frame, {canvas.x + canvas.width / 2, canvas.y + frame.px(down)}, text);
+  const float middle = std::max(frame.px(down), frame.canvas.title_height() + frame.px(14));
+  frame.ui.items["Picture/shown"] =
+      draw_badge(frame, {canvas.x + canvas.width / 2, canvas.y + middle}, text);
 }
 
 void draw_picked(Frame& frame) {
@@ -143,7 +146,7 @@ void draw_buttons(Frame& frame, Notice& notice) {
 
 }  // namespace
 
-void draw_notices(Frame& frame) {
+void draw_notices(Frame& frame, float below) {
   auto& notices = frame.ui.notices;
   for (Notice& notice : notices) {  // an undo brings sources back, too
     if (notice.sources.empty()) continue;
@@ -153,7 +156,10 @@ void draw_notices(Frame& frame) {
       notice.until = 0;
     }
   }
-  std::erase_if(notices, [](const Notice& notice) { return notice.until < ImGui::GetTime(); });
+  std::erase_if(notices, [&frame](const Notice& notice) {
+    const bool mended = notice.of_failure && frame.session.failure() != notice.text;
+    return mended || notice.until < ImGui::GetTime();
+  });
   const Rect& canvas = frame.ui.places.canvas;
   const float width = std::min(frame.px(460), canvas.width - frame.px(24));
   if (notices.empty() || width < frame.px(100)) return;
@@ -162,7 +168,8 @@ void draw_notices(Frame& frame) {
                                       {width, std::max(1.0F, canvas.height * kNoticesShare)});
   ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, ImGui::GetStyle().FrameBorderSize);
   begin_floating(frame, "##notices",
-                 {canvas.x + canvas.width / 2, canvas.y + canvas.height - frame.px(12)}, {0.5F, 1});
+                 {canvas.x + canvas.width / 2, canvas.y + canvas.height - below - frame.px(12)},
+                 {0.5F, 1});
   ImGui::PopStyleVar();
   for (Notice& notice : notices) {
     const Palette& p = frame.colours();
@@ -195,8 +202,9 @@ void take_notices(Frame& frame) {
     auto& notices = frame.ui.notices;
     std::string text = sentence(line.text, line.hint);
     std::erase_if(notices, [&](const Notice& notice) { return notice.text == text; });
-    notices.push_back(
-        {std::move(text), line.kind, ImGui::GetTime() + kNoticeTime, settings_of(line.hint)});
+    Notice notice{text, line.kind, ImGui::GetTime() + kNoticeTime, settings_of(line.hint)};
+    notice.of_failure = text == frame.session.failure();
+    notices.push_back(std::move(notice));
     if (notices.size() > kMaxNotices) notices.erase(notices.begin());
   }
 }

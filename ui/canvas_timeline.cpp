@@ -42,11 +42,11 @@ bool play(Frame& frame) {
   return false;
 }
 
-void draw_timeline(Frame& frame) {
+float draw_timeline(Frame& frame) {
   const Rect& canvas = frame.ui.places.canvas;
   const app::Timeline& timeline = frame.state().timeline;
   frame.ui.scrubs = false;
-  if (timeline.sequence.empty() || !frame.model() || canvas.width < frame.px(300)) return;
+  if (timeline.sequence.empty() || !frame.model() || canvas.width < frame.px(300)) return 0;
   frame.section = "Timeline";
   ImGui::SetNextWindowSize({canvas.width - frame.px(32), 0});
   begin_floating(frame, "##timeline",
@@ -87,7 +87,9 @@ void draw_timeline(Frame& frame) {
     frame.send(app::command::ShowSequence{});
   }
   draw_tip(frame, "The model as its file has it.");
+  const float top = ImGui::GetWindowPos().y;
   ImGui::End();
+  return canvas.y + canvas.height - top;
 }
 
 }  // namespace geotherm::ui

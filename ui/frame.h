@@ -64,6 +64,7 @@ struct Notice {
   std::vector<SettingHint> settings = {};     ///< that may help
   std::vector<app::SourceSpec> sources = {};  ///< that a button brings back; empty: none
   bool replaced = false;                      ///< whether others have been in their place
+  bool of_failure = false;                    ///< it goes with Session::failure()
 };
 
 /// All that the panels remember between frames; nothing of it decides what is computed.

@@ -143,9 +143,9 @@ FrameOutput Interface::draw(const app::Session& session, const Canvas& canvas, b
   draw_toolbar(frame);
   draw_status_bar(frame);
   draw_canvas_overlay(frame);
-  if (!for_file) draw_notices(frame);
   draw_sculpt_bar(frame);
-  draw_timeline(frame);
+  const float timeline = draw_timeline(frame);
+  if (!for_file) draw_notices(frame, timeline);
   draw_canvas_menu(frame);
   take_keys(frame);
   ui.dialog.draw(frame);

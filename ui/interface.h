@@ -35,6 +35,8 @@ class Canvas {
   virtual std::optional<std::array<float, 2>> place_of(const Vec3& point) const = 0;
   /// What zooming scales about, pixels of the window.
   virtual std::array<float, 2> lens_centre() const = 0;
+  /// What a title takes of the upper edge of the picture, pixels of the window.
+  virtual float title_height() const { return 0; }
   /// The whole model as large as there is room for, seen from the present direction; nothing where
   /// none is drawn.
   virtual std::optional<app::command::Place> tight() const { return {}; }

@@ -47,14 +47,23 @@ std::vector<const app::LogLine*> shown_lines(const Frame& frame) {
   return lines;
 }
 
+/// Goes on in the same line where a box or a button with that label has room there.
+void continue_line(Frame& frame, const char* label) {
+  ImGui::SameLine(0, frame.px(12));
+  const float width =
+      ImGui::GetFrameHeight() + ImGui::GetStyle().ItemInnerSpacing.x + ImGui::CalcTextSize(label).x;
+  if (ImGui::GetContentRegionAvail().x < width) ImGui::NewLine();
+}
+
 void draw_filters(Frame& frame, const std::vector<const app::LogLine*>& lines) {
   LogForm& form = frame.ui.log;
   for (const KindRow& row : kKinds) {
+    if (&row != kKinds) continue_line(frame, row.label);
     draw_checkbox(frame, row.label, row.label, form.shown[static_cast<std::size_t>(row.kind)]);
-    ImGui::SameLine(0, frame.px(12));
   }
+  continue_line(frame, "follow");
   draw_checkbox(frame, "follow", "follow", form.follow);
-  ImGui::SameLine(0, frame.px(12));
+  continue_line(frame, "Copy");
   if (draw_button(frame, "copy", "Copy")) {
     std::string text;
     for (const app::LogLine* line : lines) (text += sentence(line->text, line->hint)) += '\n';
@@ -167,16 +176,17 @@ void run_line(Frame& frame) {
 
 float command_error_height(Frame& frame) {
   const LogForm& form = frame.ui.log;
-  return form.error.empty() && form.choices.empty() ? 0 : ImGui::GetTextLineHeightWithSpacing();
+  if (form.error.empty()) return form.choices.empty() ? 0 : ImGui::GetTextLineHeightWithSpacing();
+  const float width = ImGui::GetContentRegionAvail().x;
+  return ImGui::CalcTextSize(app::one_line(form.error).c_str(), nullptr, false, width).y +
+         ImGui::GetStyle().ItemSpacing.y;
 }
 
 void draw_command_line(Frame& frame) {
   LogForm& form = frame.ui.log;
   if (!form.error.empty()) {
-    ImGui::PushStyleColor(ImGuiCol_Text, frame.colours().error);
-    ImGui::TextUnformatted(app::one_line(form.error).c_str());
-    ImGui::PopStyleColor();
-    draw_tip(frame, form.error);
+    draw_note(app::one_line(form.error), frame.colours().error);
+    frame.mark("error");
   } else if (!form.choices.empty()) {
     ImGui::PushStyleColor(ImGuiCol_Text, frame.colours().dim);
     ImGui::TextUnformatted(form.choices.c_str());

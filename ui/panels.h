@@ -38,7 +38,7 @@ void draw_log_panel(Frame& frame);
 /// A field for any command in its text form; arrows up and down bring back what was typed before.
 void draw_command_line(Frame& frame);
 
-/// What the line about a wrong command needs above the field.
+/// What the lines about a wrong command need above the field, pixels.
 float command_error_height(Frame& frame);
 
 /// The setting's text; empty where there is no such setting.

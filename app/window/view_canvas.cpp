@@ -98,6 +98,10 @@ std::array<float, 2> ViewCanvas::lens_centre() const {
   return in_window(app::lens_centre(screen_.area().extent, screen_.insets()));
 }
 
+float ViewCanvas::title_height() const {
+  return static_cast<float>(double{screen_.insets().top} / pixels_per_point_);
+}
+
 std::optional<command::Place> ViewCanvas::tight() const {
   if (!screen_.has_model()) return std::nullopt;
   const CameraSettings camera = screen_.tight_camera();

@@ -19,6 +19,7 @@ class ViewCanvas final : public ui::Canvas {
   std::optional<ui::InsidePoint> inside_at(float x, float y) const override;
   std::optional<std::array<float, 2>> place_of(const Vec3& point) const override;
   std::array<float, 2> lens_centre() const override;
+  float title_height() const override;
   std::optional<app::command::Place> tight() const override;
   double fps() const override { return fps_; }
   std::vector<std::string> colour_maps() const override;

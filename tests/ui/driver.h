@@ -34,6 +34,8 @@ class FlatCanvas : public Canvas {
   std::optional<InsidePoint> inside_at(float, float) const override { return inside; }
   std::optional<std::array<float, 2>> place_of(const Vec3& point) const override;
   std::array<float, 2> lens_centre() const override;
+  float title = 0;  ///< height of one over the picture, pixels
+  float title_height() const override { return title; }
   double fps() const override { return 60; }
   std::vector<std::string> colour_maps() const override { return {"red-blue", "viridis"}; }
   std::string device() const override { return "a test, in software"; }

@@ -52,6 +52,24 @@ TEST_F(LogPanel, BringsBackWhatWasTypedBefore) {
   EXPECT_EQ(sent(), Texts{"view flat"});
 }
 
+TEST_F(LogPanel, BreaksItsLinesWhereItIsNarrow) {
+  ImGui::GetIO().DisplaySize = {350, 700};
+  Layout layout;
+  layout.left = layout.right = false;
+  layout.log = true;
+  layout.log_height = 300;
+  restart(layout);
+  fill("Log/command", "boundary dirichlet-and-something-that-no-setting-has");
+  frames(2);
+  for (const char* item : {"Log/errors", "Log/follow", "Log/copy", "Log/error", "Log/command"}) {
+    const auto place = panels_->place_of_item(item);
+    ASSERT_TRUE(place) << item;
+    EXPECT_LE(place->x + place->width, 350) << item;
+    EXPECT_LT(place->y + place->height, 700) << item;
+  }
+  EXPECT_GT(panels_->place_of_item("Log/error")->height, 1.5F * ImGui::GetFontSize());
+}
+
 TEST_F(LogPanel, CopiesTheLinesThatAreShown) {
   std::string copied;
   ImGuiIO& io = ImGui::GetIO();

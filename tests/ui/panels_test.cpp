@@ -211,6 +211,28 @@ TEST_F(Panels, TellAFailureOverThePicture) {
   EXPECT_FALSE(is_drawn("Notices/close"));
 }
 
+TEST_F(Panels, AFailureThatIsMendedIsSaidNoLonger) {
+  open_square();
+  EXPECT_FALSE(session_.submit(*app::parse_command("source set 99999")));
+  frames(3);
+  EXPECT_TRUE(is_drawn("Notices/close"));
+  run("undo");
+  frames(1);
+  EXPECT_FALSE(is_drawn("Notices/close"));
+}
+
+TEST_F(Panels, SayBelowATitleWhichOfAAndBIsShown) {
+  open_square();
+  run("keep");
+  frame();
+  const auto top = [this] { return panels_->place_of_item("Picture/shown")->y; };
+  const float usual = top();
+  canvas_.title = 60;
+  frame();
+  EXPECT_LT(usual, panels_->canvas().y + 60);
+  EXPECT_GE(top(), panels_->canvas().y + 60);
+}
+
 TEST_F(Panels, OfferWhatMayHelpAfterAFailure) {
   open_square();
   for (const char* line :

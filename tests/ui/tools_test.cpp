@@ -176,6 +176,15 @@ TEST_F(TimelineBar, PlaysFromTheFirstFrameAgainWhereNoneFollowsTheLast) {
   EXPECT_EQ(sent(), (Texts{"frame 0", "play on", "frame 1", "frame 2", "play off"}));
 }
 
+TEST_F(TimelineBar, LeavesRoomForWhatIsSaid) {
+  EXPECT_FALSE(session_.submit(app::command::ShowFrame{99}));
+  frames(3);
+  const auto bar = panels_->place_of_item("Timeline/frame");
+  const auto close = panels_->place_of_item("Notices/close");
+  ASSERT_TRUE(bar && close);
+  EXPECT_LT(close->y + close->height, bar->y);
+}
+
 TEST_F(TimelineBar, ScrubsAndCloses) {
   const ImVec2 middle = middle_of("Timeline/frame");
   drag(middle, {middle.x + 4000, middle.y});
