@@ -128,6 +128,27 @@ void note_empty(const PictureData& data, const PictureSettings& settings,
   }
 }
 
+/// Whether anything is as wide as --line-width says.
+bool has_lines(const PictureFigures& figures, const PictureData& data) {
+  const PictureScale& scale = figures.scale;
+  const bool isolines = scale.coloured && (scale.spacing > 0 || !scale.levels.empty());
+  return isolines || figures.settings.view == View::kWireframe ||
+         std::ranges::any_of(data.lines, [&](const PictureData::Line& line) {
+           return shows_line(figures.settings, line.name);
+         });
+}
+
+/// Whether a colour bar, or keys of colours, would be there without --no-bar.
+bool would_have_bar(const PictureFigures& figures, const PictureData& data) {
+  PictureSettings settings = figures.settings;
+  settings.bar = true;
+  return picture_scale(data, settings).bar || settings.view == View::kGradientError ||
+         shows_regions(data, settings) ||
+         std::ranges::any_of(data.lines, [&](const PictureData::Line& line) {
+           return !line.name.empty() && shows_line(settings, line.name);
+         });
+}
+
 /// Options that have nothing to do in this picture, and letters that it cannot show.
 void note_figure(const RenderArguments& arguments, const PictureFigures& figures,
                  const PictureData& data, const Drawing& drawing, std::vector<Warning>& warnings) {
@@ -142,12 +163,24 @@ void note_figure(const RenderArguments& arguments, const PictureFigures& figures
   };
   if (!figures.scale.bar) {
     note({"bar-label", "units", "number-format"}, "the picture has no colour bar");
+  } else if (face_field(figures.settings.view) && figures.settings.bar_label.empty()) {
+    note({"units"}, "what this view shows has none");
   }
+  const bool is_glb =
+      scene_format(arguments.output) == SceneFormat::kGlb;  // has no place for these
+  if (!is_glb && arguments.settings.has("bar") && !would_have_bar(figures, data)) {
+    warnings.push_back({"--no-bar is not used: the picture has no colour bar"});
+  }
+  if (!is_glb && !has_lines(figures, data)) note({"line-width"}, "the picture has no lines");
   const bool mapped = figures.scale.coloured || face_field(figures.settings.view);
   if (figures.settings.view == View::kRegions) {
     note({"bands", "colour-map", "reverse"}, "each region has a colour of its own");
   } else if (!mapped) {
     note({"bands", "colour-map", "reverse"}, "the picture shows no values in colours");
+  } else if (figures.scale.colour_map != figures.settings.colour_map) {
+    note({"colour-map"}, face_field(figures.settings.view)
+                             ? "it is for distances, and this view is drawn in viridis"
+                             : "values of both signs are drawn in cool-warm or red-yellow-blue");
   }
   if (!figures.scale.coloured) {
     note({"values", "colour-scale", "range", "spacing"}, "the picture shows no distances");

@@ -75,7 +75,7 @@ engine::SurfaceStyle surface_of(const PictureData& data, const PictureSettings& 
   style.form = settings.shading == PictureShading::kForm;
   if (face_field(settings.view) && !data.face_values.empty()) {
     style.paint = engine::Paint::kFaces;
-    style.range_max = data.largest_face_value;
+    style.range_max = static_cast<float>(scale.max);
     return style;
   }
   const bool regions = shows_regions(data, settings);

@@ -17,18 +17,34 @@ constexpr double kFewer = 2.5;
 /// A logarithmic scale ends at this share of the largest value.
 constexpr double kSmallestRatio = 1e-6;
 
+/// The width of bands from 0 to `max` and little more, whose borders are round numbers, and all
+/// whole ones where those alone are values.
+double face_band_width(View view, double max, int bands) {
+  const auto step = face_tick_step(view);
+  if (!step) return band_width(max, bands);
+  const double in_step = bands * *step / max;
+  return in_step >= 1 ? *step / std::floor(in_step) : *step * std::ceil(1 / in_step);
+}
+
 /// Views of faces have scales of their own, not those of distances.
 PictureScale face_scale(const PictureData& data, const PictureSettings& settings) {
   PictureScale scale;
   scale.colour_map = colour_map_of(data, settings);
   scale.max = data.face_values.empty() ? 1 : double{data.largest_face_value};
+  if (settings.bands > 0) {
+    scale.max = settings.bands * face_band_width(settings.view, scale.max, settings.bands);
+  }
   scale.bar = settings.bar && !data.face_values.empty();
   if (!scale.bar) return scale;
-  scale.ticks =
-      make_ticks(scale.min, scale.max, kMaxTicks, face_tick_step(settings.view).value_or(0));
+  if (settings.bands > 0) {
+    scale.ticks = make_band_ticks(scale.min, scale.max, settings.bands, kMaxBandTicks);
+  } else {
+    scale.ticks =
+        make_ticks(scale.min, scale.max, kMaxTicks, face_tick_step(settings.view).value_or(0));
+  }
   format_labels(scale.ticks, settings.number_format);
-  scale.above = std::ranges::any_of(
-      data.face_values, [&](float x) { return x > data.largest_face_value * (1 + kSlackOfEnds); });
+  scale.above = std::ranges::any_of(data.face_values,
+                                    [&](float x) { return x > scale.max * (1 + kSlackOfEnds); });
   return scale;
 }
 
@@ -165,6 +181,11 @@ double PictureScale::value_at(double place) const {
 
 PictureScale picture_scale(const PictureData& data, const PictureSettings& settings) {
   if (face_field(settings.view)) return face_scale(data, settings);
+  if (settings.bands > 0 && !maps_values(settings.view)) {
+    PictureSettings without = settings;
+    without.bands = 0;
+    return picture_scale(data, without);
+  }
   const double largest = data.largest_value * data.value_unit;
   const bool has_range = settings.view != View::kExactError &&
                          (settings.range_min.has_value() || settings.range_max.has_value());

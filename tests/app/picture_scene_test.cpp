@@ -66,6 +66,10 @@ TEST(PictureSceneOfView, PaintsErrorsByTheMapAndRegionsWhereTheyAreKnown) {
   const auto style = app::scene_of(data, settings, app::picture_scale(data, settings)).surface;
   EXPECT_EQ(style.paint, engine::Paint::kRegions);
   EXPECT_GT(style.line_spacing, 0);
+  settings.bands = 5;
+  const auto banded = app::picture_scale(data, settings);
+  EXPECT_EQ(app::scene_of(data, settings, banded).surface.line_spacing, style.line_spacing)
+      << "each region has a colour of its own";
   EXPECT_TRUE(scene_of(View::kRegions).markers.visible);
   EXPECT_TRUE(scene_of(View::kExactError).markers.visible);
 }
@@ -90,6 +94,14 @@ TEST(PictureSceneOfView, PaintsFacesByScalesOfTheirOwn) {
   ASSERT_EQ(legend.ticks.size(), 4U);
   EXPECT_EQ(legend.ticks[3].label, "3");
   EXPECT_EQ(legend.ticks[3].position, 1);
+  for (const int bands : {2, 3, 4, 5, 7, 8, 9, 16, 64}) {
+    settings.bands = bands;
+    const auto banded = app::picture_scale(data, settings);
+    EXPECT_EQ(app::scene_of(data, settings, banded).surface.range_max, float(banded.max));
+    EXPECT_GE(banded.max, 3) << bands;
+    const double in_one = (bands == 2 ? 2 : 1) * bands / banded.max;
+    EXPECT_NEAR(in_one, std::round(in_one), 1e-9) << bands << ": borders at whole numbers";
+  }
 }
 
 /// What is 0 is neutral, and errors of both signs look equally large.

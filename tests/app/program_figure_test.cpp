@@ -139,6 +139,26 @@ TEST_F(ProgramFigure, SaysWhatIsNotUsedAndWhatCannotBeWritten) {
   };
   EXPECT_NE(said({"--view", "smooth", "--units", "mm"}).find("--units is not used"),
             std::string::npos);
+  const auto unused = [&](const std::string& view, std::vector<std::string> option) {
+    const std::string says = option.front() + " is not used";
+    option.insert(option.begin(), {"-s", "17", "--view", view});
+    return said(option).find(says) != std::string::npos;
+  };
+  EXPECT_TRUE(unused("exact-error", {"--colour-map", "magma"}));
+  EXPECT_FALSE(unused("exact-error", {"--colour-map", "red-yellow-blue"}));
+  EXPECT_TRUE(unused("triangle-quality", {"--colour-map", "red-blue"}));
+  EXPECT_FALSE(unused("triangle-quality", {"--colour-map", "magma"}));
+  EXPECT_TRUE(unused("triangle-quality", {"--units", "mm"}));
+  for (const char* view : {"smooth", "flat", "sources", "heat-gradient", "triangle-quality"}) {
+    EXPECT_TRUE(unused(view, {"--line-width", "9"})) << view;
+  }
+  for (const char* view : {"contours", "wireframe", "regions"}) {
+    EXPECT_FALSE(unused(view, {"--line-width", "9"})) << view;
+  }
+  EXPECT_TRUE(unused("smooth", {"--no-bar"}));
+  for (const char* view : {"contours", "triangle-quality", "regions", "gradient-error"}) {
+    EXPECT_FALSE(unused(view, {"--no-bar"})) << view;
+  }
   EXPECT_NE(said({"--view", "smooth", "--title", "\u6f22"}).find("(U+6F22)"), std::string::npos);
   EXPECT_NE(said({"-s", "17", "--values", "50,60"}).find("none of --values 50,60"),
             std::string::npos);
