@@ -74,6 +74,14 @@ Result<void> check_bake(const SolveArguments& arguments, const Drawing& drawing)
   return known ? Result<void>() : about("--bake-colours", known.error());
 }
 
+/// Whether there is a place for labels: JSON has the regions.
+Result<void> check_labels(const SolveArguments& arguments) {
+  if (!arguments.labels || !arguments.outputs.empty() || !arguments.json.empty()) return {};
+  return Error{ErrorCode::kBadInput,
+               "--labels: they are written beside the distances",
+               {"give -o FILE.csv or --json FILE"}};
+}
+
 bool needs_nearest(const std::vector<std::string>& paths) {
   return std::ranges::any_of(paths, holds_mesh);
 }
@@ -278,6 +286,7 @@ Result<CommandOutput> run_solve(const SolveArguments& arguments, const Drawing& 
   const auto wanted = wanted_fields(arguments.fields, options.method, arguments.outputs);
   if (!wanted) return wanted.error();
   if (auto fits = check_bake(arguments, drawing); !fits) return fits.error();
+  if (auto fits = check_labels(arguments); !fits) return fits.error();
   const auto check = settings_of(arguments, options, *wanted);
   if (!check) return check.error();
   const auto named = some_sources_of(arguments.sources);

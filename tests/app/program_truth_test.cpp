@@ -72,6 +72,7 @@ TEST_F(ProgramTruth, OffsetsHoldSourcesBack) {
 }
 
 TEST_F(ProgramTruth, LabelsNameTheNearestSource) {
+  expect_refused({"solve", "small.ply", "-s", "3,400", "--labels"}, "-o FILE.csv or --json");
   const Json solved = json({"solve", "small.ply", "-s", "3,400", "--labels", "-o", "l.csv", "-o",
                             "l.ply", "-o", "l.vtp", "-o", "l.npy", "--json", "-"});
   ASSERT_EQ(solved["regions"].size(), 2U);
