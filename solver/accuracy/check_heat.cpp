@@ -109,6 +109,7 @@ CellCounts inspect_faces(const OperatorMesh& mesh, std::span<const Side> twin,
     const auto g = gradient(mesh.layout[f], phi[face[0]], phi[face[1]], phi[face[2]]);
     const double face_area = mesh.layout[f].base * mesh.layout[f].height / 2;
     const double slope = length(g);
+    if (known && slope == 0) return;  // sources alone: no distance rises here
     sums.error += face_area * std::abs(slope - 1);
     sums.area += face_area;
     if (!steep.may_be_steep(slope)) return;
@@ -136,7 +137,7 @@ CellCounts inspect_faces(const OperatorMesh& mesh, std::span<const Side> twin,
   sums.steep.write_to(quality);
   quality.zero_gradient_faces = (sums.lost + 1) / 2;
   quality.eikonal_error_mean = sums.area > 0 ? sums.error / sums.area : 0.0;
-  return {(sums.in_reach + 1) / 2, (sums.without_direction + 1) / 2};
+  return {(sums.in_reach + 1) / 2, (sums.without_direction + 1) / 2, sums.area};
 }
 
 namespace {

@@ -26,7 +26,8 @@ double poisson_residual(const Domain& domain, std::span<const double> phi, const
 
 /// What the faces say: mean of | |grad phi| - 1 | by area, and lost gradients of u, over the
 /// components that hold a source. `phi` in units of the intrinsic mesh. Faces whose corners are all
-/// anchors or `held_at_zero` (a flag per row, or empty) have no gradient to lose. Edges too steep
+/// anchors or `held_at_zero` (a flag per row, or empty) have no gradient to lose, and no slope
+/// where phi is the same at all of them. Edges too steep
 /// for `steep` are counted, those that have a twin in `twin` (3F of the intrinsic mesh) by halves.
 /// `some`: a flag for each face that counts, or empty. The same bits with any number of threads.
 CellCounts inspect_faces(const OperatorMesh& mesh, std::span<const Side> twin,

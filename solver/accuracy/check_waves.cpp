@@ -15,6 +15,7 @@ SlopeSums sum_slopes(const IntrinsicMesh& mesh, std::span<const double> distance
     const auto [a, b, c] = mesh.faces[f];
     const double da = distances[a], db = distances[b] - da, dc = distances[c] - da;
     if (!std::isfinite(db) || !std::isfinite(dc)) continue;
+    if (da == 0 && db == 0 && dc == 0) continue;  // sources alone: no distance rises here
     const FaceLayout layout = lay_out(mesh.lengths[f]);
     const double slope_x = db / layout.base;
     const double slope_y = (dc - slope_x * layout.x) / layout.height;

@@ -41,7 +41,6 @@ void BlockFaces::add_divergence(std::vector<double>& b) const {
 BlockFaces::Sums BlockFaces::inspect(const std::vector<double>& phi,
                                      const std::vector<double>& b) const {
   const Surface& surface = *block_.surface;
-  const OperatorMesh& mesh = *surface.operators;
   std::vector<double> here(static_cast<std::size_t>(surface.size())), product(here.size());
   for (Index row = 0; row < surface.size(); ++row) {
     here[row] = phi[block_.part_vertex(row)] / surface.unit;
@@ -56,11 +55,7 @@ BlockFaces::Sums BlockFaces::inspect(const std::vector<double>& phi,
   Sums out;
   const std::vector<char> own = own_faces(task_.part, block_);
   out.cells = field_.inspect(here, anchors, own, task_.threads, out.quality);
-  const double square = surface.unit * surface.unit;
-  for (Index f = 0; f < mesh.face_count(); ++f) {
-    if (!own[f] || !reached[mesh.components.of[mesh.faces[f][0]]]) continue;
-    out.area += mesh.layout[f].base * mesh.layout[f].height * square / 2;
-  }
+  out.area = out.cells.area * surface.unit * surface.unit;
   out.error = out.quality.eikonal_error_mean * out.area;
   surface.apply_stiffness(here, product, task_.threads);
   for (Index v = block_.first; v < block_.end; ++v) {

@@ -254,7 +254,7 @@ CellCounts CellField::inspect(std::span<const double> phi, Eigen::Index column,
            if (corners.size() < 2) continue;  // a triangle all of whose corners are one vertex
            const double slope =
                norm(cell_gradient(mesh, c, [&](std::size_t k) { return phi[corners[k]]; }));
-           inspection.add_slope(slope, mesh.measures[c], sum);
+           inspection.add_slope(corners, slope, mesh.measures[c], sum);
          }
          return sum;
        })) {

@@ -101,16 +101,20 @@ class CellsUnitField : public UnitField {
       ++sum.counts.in_reach;
       if (has_direction) return;
       ++sum.counts.without_direction;
-      const bool known = std::ranges::all_of(rows, [this](Index row) { return held_[row] != 0; });
-      sum.lost += known ? 0 : 1;
+      sum.lost += knows(rows) ? 0 : 1;
     }
     /// Adds the slope |grad phi| of a cell that is reached, or of a part of it.
-    static void add_slope(double slope, double measure, Sums& sum) {
+    void add_slope(std::span<const Index> rows, double slope, double measure, Sums& sum) const {
+      if (slope == 0 && knows(rows)) return;  // sources alone: no distance rises here
       sum.error += measure * std::abs(slope - 1);
       sum.measure += measure;
     }
 
    private:
+    bool knows(std::span<const Index> rows) const {
+      return std::ranges::all_of(rows, [this](Index row) { return held_[row] != 0; });
+    }
+
     const Components& parts_;
     std::vector<char> held_, holds_;
   };

@@ -41,6 +41,7 @@ struct ComponentSize {
 /// whether or not it could have one.
 struct CellCounts {
   Index in_reach = 0, without_direction = 0;
+  double area = 0;  ///< of faces whose slope counts, in the mesh's units; of other cells 0
 };
 
 /// X = -grad u / |grad u| on every cell of a domain, for K source sets: the second of the heat

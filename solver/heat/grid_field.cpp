@@ -210,7 +210,7 @@ CellCounts GridField::inspect(std::span<const double> phi, Eigen::Index column,
     const double slope =
         norm(element.gradient([&](std::size_t k) { return phi[element.rows[k]]; }));
     inspection.count(rows, of_cell(element, column) != Direction{}, sum);
-    inspection.add_slope(slope, element.measure, sum);
+    inspection.add_slope(rows, slope, element.measure, sum);
   };
   parallel_each<std::size_t>(threads, std::ssize(sums), 1, [&](std::size_t r) {
     domain_.lattice->for_each_cell(cuts[r], cuts[r + 1],

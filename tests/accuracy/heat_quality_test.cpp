@@ -4,9 +4,11 @@
 
 #include <Eigen/Core>
 #include <algorithm>
+#include <numeric>
 #include <tuple>
 
 #include "geotherm/backend.h"
+#include "geotherm/build_method.h"
 #include "solver/accuracy/check_heat.h"
 #include "solver/heat/linear_system.h"
 #include "solver/heat/surface.h"
@@ -134,6 +136,19 @@ TEST_F(QualityResponds, DistancesWithoutHeatAreBelowTheStraightLineSlow) {
         noise);
     EXPECT_EQ(result.quality.most_below_straight_line > 0.2, noise);
   }
+}
+
+TEST_F(QualityResponds, FacesOfSourcesAloneHaveNoSlope) {
+  std::vector<Index> all(static_cast<std::size_t>(mesh->vertex_count()));
+  std::iota(all.begin(), all.end(), 0);
+  const DistanceResult nowhere = solve(mesh, all);
+  EXPECT_EQ(nowhere.quality.eikonal_error_mean, 0);
+  EXPECT_TRUE(nowhere.warnings.empty()) << sentence(nowhere.warnings.front());
+  MethodOptions options;
+  options.method = MethodKind::kWavefront;
+  const auto waves = build_method(mesh, options);
+  ASSERT_TRUE(waves);
+  EXPECT_EQ((*waves)->solve(SourceSet::of_vertices(all))->quality.eikonal_error_mean, 0);
 }
 
 TEST_F(QualityResponds, ALargeTimeBlursTheSlope) {
