@@ -8,6 +8,9 @@
 #include "app/session/model.h"
 #include "app/session/settings.h"
 #include "app/text/text.h"
+#include "geotherm/backend.h"
+#include "geotherm/directions.h"
+#include "geotherm/path.h"
 #include "solver/core/text.h"
 
 namespace geotherm::app {
@@ -19,12 +22,16 @@ struct CompletedOption {
   std::string description;
   bool takes_value = false, is_file = false;
   std::vector<std::string> values;
+
+  bool completes_as(const CompletedOption& other) const {
+    return is_file == other.is_file && values == other.values;
+  }
 };
 
 struct CompletedCommand {
   std::string name, description;
   std::vector<CompletedOption> options;
-  bool takes_model = false;
+  bool takes_model = false, takes_files = true;
 };
 
 /// The help breaks its lines; a script has one for each option.
@@ -43,12 +50,26 @@ std::string with_backslashes(const std::string& text, std::string_view before) {
   return out;
 }
 
+/// What differences may be measured from: backends, and methods without one.
+std::vector<std::string> solver_names() {
+  std::vector<std::string> names = backend_names();
+  for (const std::string& method : all_names<MethodKind>()) {
+    if (method != to_text(MethodKind::kHeat)) names.push_back(method);
+  }
+  return names;
+}
+
 /// The words among the values of an option; one with a colon is several words to a shell.
-std::vector<std::string> values_of(const std::string& option) {
+std::vector<std::string> values_of(const std::string& option,
+                                   std::span<const std::string> colour_maps) {
   const Setting* const setting = find_setting(option);
   std::vector<std::string> values;
   if (setting != nullptr && setting->values != nullptr) values = setting->values();
   if (option == "on-poor") values = all_names<OnPoor>();
+  if (option == "field") values = all_names<PathField>();
+  if (option == "rule") values = all_names<SideRule>();
+  if (option == "reference") values = solver_names();
+  if (option == "colour-map") values.assign(colour_maps.begin(), colour_maps.end());
   std::erase_if(values, [](const std::string& value) {
     return value.find_first_of(": '\"$&()") != std::string::npos;
   });
@@ -58,29 +79,35 @@ std::vector<std::string> values_of(const std::string& option) {
 /// What the values of options are called that are paths.
 constexpr std::string_view kPathValues[] = {"FILE", "FOLDER", "FRAMES"};
 
-CompletedOption completed(const CLI::Option& option) {
+CompletedOption completed(const CLI::Option& option, std::span<const std::string> colour_maps) {
   CompletedOption out;
+  out.is_file = std::ranges::count(kPathValues, option.get_type_name()) > 0;
   out.takes_value = option.get_items_expected_max() > 0;
   for (const std::string& name : option.get_snames()) out.names.push_back("-" + name);
   for (const std::string& name : option.get_lnames()) {
     out.names.push_back("--" + name);
-    if (out.takes_value && out.values.empty()) out.values = values_of(name);
+    if (!out.takes_value || out.is_file || !out.values.empty()) continue;
+    out.values = values_of(name, colour_maps);
   }
   out.description = on_one_line(option.get_description());
-  out.is_file = std::ranges::count(kPathValues, option.get_type_name()) > 0;
   return out;
 }
 
 /// What a model alone, `geotherm bunny`, is short for.
 constexpr std::string_view kOpens = "view";
 
-std::vector<CompletedCommand> completed(const CLI::App& root) {
+/// Commands that take names alone.
+constexpr std::string_view kOfNames[] = {"completion", "generate", "help"};
+
+std::vector<CompletedCommand> completed(const CLI::App& root,
+                                        std::span<const std::string> colour_maps) {
   std::vector<CompletedCommand> all;
   for (const std::string& name : command_names(root)) {
     const CLI::App& command = *root.get_subcommand(name);
     CompletedCommand one{name, on_one_line(command.get_description()), {}};
+    one.takes_files = std::ranges::count(kOfNames, name) == 0;
     for (const CLI::Option* option : command.get_options()) {
-      if (option->nonpositional()) one.options.push_back(completed(*option));
+      if (option->nonpositional()) one.options.push_back(completed(*option, colour_maps));
       one.takes_model |= option->get_name() == "MODEL";
     }
     all.push_back(std::move(one));
@@ -109,35 +136,47 @@ std::string words_of(const CompletedCommand& command, const CLI::App& root) {
   return command.name == "help" ? joined(command_names(root), " ") : "";
 }
 
+/// What bash does behind an option.
+std::string bash_case(const std::string& names, const CompletedOption& option) {
+  std::string text = "    " + names + ")\n      ";
+  if (option.is_file) {
+    text += "mapfile -t COMPREPLY < <(compgen -f -- \"$current\")\n      ";
+  } else if (!option.values.empty()) {
+    text += "mapfile -t COMPREPLY < <(compgen -W '" + joined(option.values, " ") +
+            "' -- \"$current\")\n      ";
+  }
+  return text + "return\n      ;;\n";
+}
+
 std::string bash_script(const std::vector<CompletedCommand>& commands, const CLI::App& root) {
   std::string cases;
   std::map<std::string, const CompletedOption*> options;
   for (const CompletedCommand& command : commands) {
     std::vector<std::string> names;
+    std::string own;  // of options that take something else in other commands
     for (const CompletedOption& option : command.options) {
       names.insert(names.end(), option.names.begin(), option.names.end());
-      if (option.takes_value) options.emplace(joined(option.names, " | "), &option);
+      if (!option.takes_value) continue;
+      const std::string pattern = joined(option.names, " | ");
+      const CompletedOption& usual = *options.emplace(pattern, &option).first->second;
+      if (!usual.completes_as(option)) own += bash_case(pattern, option);
     }
     cases += "    " + pattern_of(command) + ")\n      options='" + joined(names, " ") + "'\n";
-    cases += "      words='" + words_of(command, root) + "'\n      ;;\n";
+    cases += "      words='" + words_of(command, root) + "'\n";
+    if (!command.takes_files) cases += "      files=\n";
+    if (!own.empty()) cases += "      case $previous in\n" + own + "      esac\n";
+    cases += "      ;;\n";
   }
   std::string values;
-  for (const auto& [names, option] : options) {
-    values += "    " + names + ")\n      ";
-    if (option->is_file) {
-      values += "mapfile -t COMPREPLY < <(compgen -f -- \"$current\")\n      ";
-    } else if (!option->values.empty()) {
-      values += "mapfile -t COMPREPLY < <(compgen -W '" + joined(option->values, " ") +
-                "' -- \"$current\")\n      ";
-    }
-    values += "return\n      ;;\n";
-  }
+  for (const auto& [names, option] : options) values += bash_case(names, *option);
   return "# What bash completes behind geotherm; made by: geotherm completion bash\n"
          "_geotherm() {\n"
          "  local current=${COMP_WORDS[COMP_CWORD]} previous=${COMP_WORDS[COMP_CWORD - 1]}\n"
          "  local options='--help --version' words='" +
          joined(command_names(root), " ") + " " + model_names() +
-         "'\n"
+         "' files=yes\n"
+         "  if [[ $current == = ]]; then current=; fi  # --option=value is three words\n"
+         "  if [[ $previous == = ]]; then previous=${COMP_WORDS[COMP_CWORD - 2]}; fi\n"
          "  if ((COMP_CWORD > 1)); then\n"
          "    case ${COMP_WORDS[1]} in\n" +
          cases +
@@ -150,7 +189,7 @@ std::string bash_script(const std::vector<CompletedCommand>& commands, const CLI
          "    mapfile -t COMPREPLY < <(compgen -W \"$options\" -- \"$current\")\n"
          "  else\n"
          "    mapfile -t COMPREPLY < <(compgen -W \"$words\" -- \"$current\" && true\n"
-         "      compgen -f -- \"$current\")\n"
+         "      [[ -z $files ]] || compgen -f -- \"$current\")\n"
          "  fi\n"
          "}\n"
          "complete -o filenames -F _geotherm geotherm\n";
@@ -181,7 +220,8 @@ std::string zsh_script(const std::vector<CompletedCommand>& commands, const CLI:
       }
     }
     const std::string words = words_of(command, root);
-    if (!words.empty()) cases += " \\\n        '*:word:_geotherm_words " + words + "'";
+    const std::string action = command.takes_files ? "_geotherm_words " + words : "(" + words + ")";
+    if (!words.empty()) cases += " \\\n        '*:word:" + action + "'";
     cases += "\n      ;;\n";
   }
   return "#compdef geotherm\n"
@@ -231,7 +271,9 @@ std::string fish_script(const std::vector<CompletedCommand>& commands, const CLI
     }
     const std::string here = "complete -c geotherm -n '" + when + "'";
     const std::string words = words_of(command, root);
-    if (!words.empty()) script += here + " -a '" + words + "'\n";
+    if (!words.empty()) {
+      script += here + (command.takes_files ? "" : " -f") + " -a '" + words + "'\n";
+    }
     for (const CompletedOption& option : command.options) {
       script += here;
       for (const std::string& name : option.names) {
@@ -262,8 +304,9 @@ void add_completion_options(CLI::App& command, std::string& shell) {
       "  geotherm completion fish > ~/.config/fish/completions/geotherm.fish");
 }
 
-Result<CommandOutput> run_completion(const std::string& shell, const CLI::App& root) {
-  const std::vector<CompletedCommand> commands = completed(root);
+Result<CommandOutput> run_completion(const std::string& shell, const CLI::App& root,
+                                     std::span<const std::string> colour_maps) {
+  const std::vector<CompletedCommand> commands = completed(root, colour_maps);
   if (shell == "bash") return CommandOutput{bash_script(commands, root), {}, {}};
   if (shell == "zsh") return CommandOutput{zsh_script(commands, root), {}, {}};
   if (shell == "fish") return CommandOutput{fish_script(commands, root), {}, {}};

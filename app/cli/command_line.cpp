@@ -233,7 +233,9 @@ std::vector<Subcommand> subcommands(CLI::App& root, Drawing& drawing, ViewerWind
   const auto devices = [&](const ListArguments& arguments) {
     return run_devices(arguments, drawing);
   };
-  const auto completion = [&](const std::string& shell) { return run_completion(shell, root); };
+  const auto completion = [&](const std::string& shell) {
+    return run_completion(shell, root, drawing.colour_maps());
+  };
   const auto help = [&](const std::string& name) -> Result<CommandOutput> {
     const CLI::App* const command = name.empty() ? &root : find_command(root, name);
     if (command != nullptr) return CommandOutput{help_of(*command), {}, {}};

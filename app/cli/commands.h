@@ -51,7 +51,8 @@ void add_completion_options(CLI::App& command, std::string& shell);
 
 /// A script by which that shell completes the commands of `root`, their options, and the values of
 /// settings.
-Result<CommandOutput> run_completion(const std::string& shell, const CLI::App& root);
+Result<CommandOutput> run_completion(const std::string& shell, const CLI::App& root,
+                                     std::span<const std::string> colour_maps);
 
 struct GenerateArguments {
   std::string name;

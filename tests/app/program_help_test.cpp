@@ -104,6 +104,16 @@ TEST_F(ProgramHelp, BashCompletesCommandsOptionsValuesAndFiles) {
   EXPECT_EQ(completed("geotherm solve bunny --on-poor be", 4), "better\n");
   EXPECT_EQ(completed("geotherm solve --quiet bun", 3), "bunny\n");  // which takes no value
   EXPECT_EQ(completed("geotherm help stu", 2), "study\n");
+  EXPECT_EQ(completed("geotherm help sca", 2), "\n") << "takes no file";
+  EXPECT_EQ(completed("geotherm generate sca", 2), "\n");
+  EXPECT_EQ(completed("geotherm completion zs", 2), "zsh\n");
+  EXPECT_EQ(completed("geotherm render --colour-map viri", 3), "viridis\n");
+  EXPECT_EQ(completed("geotherm path bunny --field geo", 4), "geodesic\n");
+  EXPECT_EQ(completed("geotherm render bunny --field sca", 4), "scan.obj\n");
+  EXPECT_EQ(completed("geotherm signed bunny --rule si", 4), "sides\n");
+  EXPECT_EQ(completed("geotherm compare bunny --reference exa", 4), "exact\n");
+  EXPECT_EQ(completed("geotherm solve bunny --method = exa", 5), "exact\n");
+  EXPECT_EQ(completed("geotherm solve bunny --on-poor =", 4), "keep better fail\n");
   EXPECT_EQ(completed("geotherm bunny --azim", 2), "--azimuth\n");  // which is the command view
 }
 
