@@ -217,23 +217,8 @@ void note_figure(const RenderArguments& arguments, const PictureFigures& figures
 Result<void> check_figure(const PictureSettings& settings, const MethodOptions& options,
                           const RenderArguments& arguments) {
   const bool is_error = settings.view == View::kExactError || !arguments.field.empty();
-  if (settings.colour_scale == ColourScale::kDiverging && !is_error) {
-    return Error{ErrorCode::kBadInput,
-                 "--colour-scale diverging is for differences, and --view " +
-                     geotherm::to_text(settings.view) + " shows none",
-                 {"choose ", SettingHint{"view", {"exact-error"}}, ", or another scale"}};
-  }
-  if (settings.colour_scale == ColourScale::kLog && !maps_values(settings.view)) {
-    return Error{ErrorCode::kBadInput,
-                 "--colour-scale log is for distances, which --view " +
-                     geotherm::to_text(settings.view) + " does not show in colours",
-                 {"choose ", SettingHint{"view", {"contours"}}}};
-  }
-  if (settings.colour_scale == ColourScale::kLog && settings.view == View::kExactError) {
-    return Error{ErrorCode::kBadInput,
-                 "--colour-scale log: the errors of --view exact-error have both signs and no "
-                 "logarithm",
-                 {"choose ", SettingHint{"colour-scale", {"diverging"}}, ", or another view"}};
+  if (auto fits = check_scale_of_view(settings, !arguments.field.empty()); !fits) {
+    return Error{fits.error().code, "--" + fits.error().message, fits.error().hint};
   }
   if (!is_error && !settings.line_values.empty() && settings.line_values.front() <= 0) {
     return Error{

@@ -158,6 +158,29 @@ bool needs_sources(View view) {
 
 bool maps_values(View view) { return view == View::kContours || view == View::kExactError; }
 
+Result<void> check_scale_of_view(const PictureSettings& settings, bool differences) {
+  const View view = settings.view;
+  const bool is_error = view == View::kExactError;
+  if (settings.colour_scale == ColourScale::kDiverging && !is_error &&
+      !(differences && maps_values(view))) {
+    return Error{ErrorCode::kBadInput,
+                 "colour-scale diverging is for differences, and the view " +
+                     geotherm::to_text(view) + " shows none",
+                 {"choose ", SettingHint{"view", {"exact-error"}}, ", or another scale"}};
+  }
+  if (settings.colour_scale == ColourScale::kLog && !maps_values(view)) {
+    return Error{ErrorCode::kBadInput,
+                 "colour-scale log is for distances, which the view " + geotherm::to_text(view) +
+                     " does not show in colours",
+                 {"choose ", SettingHint{"view", {"contours"}}}};
+  }
+  if (settings.colour_scale != ColourScale::kLog || !is_error) return {};
+  return Error{
+      ErrorCode::kBadInput,
+      "colour-scale log: the errors of the view exact-error have both signs and no logarithm",
+      {"choose ", SettingHint{"colour-scale", {"diverging"}}, ", or another view"}};
+}
+
 bool shows_arrows(View view) { return view == View::kHeatGradient || view == View::kGradientError; }
 
 bool needs_fields(View view) {

@@ -83,6 +83,10 @@ bool needs_sources(View view);
 /// Whether a view paints values of vertices by the colour map.
 bool maps_values(View view);
 
+/// Whether the colour scale means something in the view. `differences`: values of both signs are
+/// shown in place of distances, or can be. Errors: kBadInput, "colour-scale ...".
+Result<void> check_scale_of_view(const PictureSettings& settings, bool differences);
+
 /// Whether a view shows the vector fields of an answer.
 bool shows_arrows(View view);
 

@@ -5,6 +5,7 @@
 #include <iterator>
 #include <utility>
 
+#include "app/picture/picture_scale.h"
 #include "app/session/script.h"
 #include "app/session/session_state.h"
 #include "app/session/settings.h"
@@ -164,6 +165,12 @@ Result<void> Session::State::perform(const Command& command, const Session& sess
   }
   auto next = app::apply(state, command);
   if (!next) return next.error();
+  // A script may set the view that it fits later; whoever looks at the picture would see nothing.
+  if (const auto* set = std::get_if<command::Set>(&command);
+      set && set->name == "colour-scale" && giver == Giver::kUser) {
+    const bool differences = next->kept || !next->field.empty();
+    if (auto fits = check_scale_of_view(next->picture, differences); !fits) return fits;
+  }
   if (std::holds_alternative<command::Pick>(command)) {
     if (auto there = check_picked(*next); !there) return there;
   }

@@ -25,6 +25,7 @@ std::vector<Command> commands_to(const ViewerState& state) {
     commands.emplace_back(command::Open{state.model});
     now = *app::apply(now, commands.back());
   }
+  if (!state.field.empty()) commands.emplace_back(command::ShowField{state.field});
   if (state.kept) {
     ViewerState kept = now;
     kept.options = *state.kept;
@@ -50,7 +51,6 @@ std::vector<Command> commands_to(const ViewerState& state) {
   if (state.max_distance < kUnreached) {
     commands.emplace_back(command::MaxDistance{state.max_distance});
   }
-  if (!state.field.empty()) commands.emplace_back(command::ShowField{state.field});
   if (state.shown != Shown::kA) commands.emplace_back(command::Show{state.shown});
   if (state.target) commands.emplace_back(command::Target{state.target});
   if (state.centre) commands.emplace_back(command::ShowCentre{state.centre});

@@ -240,5 +240,18 @@ TEST_F(SessionTruth, DistanceUnderThePointerIsAtMostStraightToASourceInTheFace) 
   EXPECT_NEAR(*figures({0.375, 0.25, 0.375}).distance, 0, 1e-12) << "on the curve";
 }
 
+TEST_F(SessionTruth, ColourScalesThatTheViewCannotHaveAreRefused) {
+  run({"open " + small_model(), "source set 5", "view triangle-quality"});
+  EXPECT_NE(refused("colour-scale log").find("choose view contours"), std::string::npos);
+  run({"view contours"});
+  EXPECT_NE(refused("colour-scale diverging").find("view exact-error"), std::string::npos);
+  EXPECT_EQ(session.state().picture.colour_scale, ColourScale::kLinear);
+  run({"colour-scale log", "view triangle-quality", "save session " + folder() + "s.geotherm"});
+  Session again;
+  ASSERT_TRUE(again.submit(command::Run{folder() + "s.geotherm"})) << "as it was left";
+  EXPECT_EQ(again.state(), session.state());
+  run({"view contours", "keep", "colour-scale diverging"});
+}
+
 }  // namespace
 }  // namespace geotherm::app
