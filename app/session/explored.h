@@ -82,7 +82,7 @@ struct PointFigures {
   /// Interpolated, and at most the straight line to a source of the same face; infinite: not
   /// reached.
   std::optional<double> distance;
-  std::optional<double> heat;      ///< u where the answer holds it
+  std::optional<double> heat;  ///< u where the answer holds it
   std::optional<double> difference;
 };
 /// Precondition: the point lies on the model.
