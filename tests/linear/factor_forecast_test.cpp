@@ -18,7 +18,7 @@ struct Shape {
 };
 
 // From columns alone to large supernodes, with and without a border.
-const Shape kShapes[] = {
+const Shape kForecastShapes[] = {
     {"small_sphere", [] { return sphere(2); }},
     {"torus", [] { return torus(70, 40, 0.4); }},
     {"plane", [] { return jittered_plane(90, 0.35, 3); }},
@@ -48,7 +48,7 @@ TEST_P(FactorForecast, IsWhatTheFactorTakes) {
 
 INSTANTIATE_TEST_SUITE_P(Backends, FactorForecast,
                          testing::Combine(testing::ValuesIn(backend_names()),
-                                          testing::ValuesIn(kShapes)),
+                                          testing::ValuesIn(kForecastShapes)),
                          [](const auto& each) {
                            return test_name(std::get<0>(each.param)) + "_" +
                                   std::get<1>(each.param).name;

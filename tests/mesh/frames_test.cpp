@@ -81,14 +81,14 @@ std::string npy(const std::string& type, const std::string& shape, const std::st
   return bytes + header + data;
 }
 
-constexpr auto kLittle = std::endian::little, kBig = std::endian::big;
+constexpr auto kLittleFrames = std::endian::little, kBigFrames = std::endian::big;
 
 std::vector<Sample> sequence_samples() {
   return {{"pc2", "walk.pc2", from_hex(kPointCache)},
           {"mdd", "walk.mdd", from_hex(kMotionDesigner)},
-          {"npy_double", "walk.npy", npy("<f8", "(2, 3, 3)", numbers<double>(kLittle))},
-          {"npy_float", "walk.npy", npy("<f4", "(2, 3, 3)", numbers<float>(kLittle))},
-          {"npy_big", "walk.NPY", npy(">f8", "(2, 3, 3)", numbers<double>(kBig))}};
+          {"npy_double", "walk.npy", npy("<f8", "(2, 3, 3)", numbers<double>(kLittleFrames))},
+          {"npy_float", "walk.npy", npy("<f4", "(2, 3, 3)", numbers<float>(kLittleFrames))},
+          {"npy_big", "walk.NPY", npy(">f8", "(2, 3, 3)", numbers<double>(kBigFrames))}};
 }
 
 class FrameFile : public testing::TestWithParam<Sample> {};
@@ -218,23 +218,23 @@ INSTANTIATE_TEST_SUITE_P(
                 "the header announces 33554432 frames of 3 vertices"},
         Damaged{"mdd_none", "a.mdd", std::string(8, '\0'), "announces 0 frames of 0 vertices"},
         Damaged{
-            "npy_type", "a.npy", npy("<i4", "(2, 3, 3)", numbers<float>(kLittle)),
+            "npy_type", "a.npy", npy("<i4", "(2, 3, 3)", numbers<float>(kLittleFrames)),
             "byte 20: positions are float32 or float64 numbers, not \"'<i4',\"; save them with"},
-        Damaged{"npy_plane", "a.npy", npy("<f4", "(2, 9)", numbers<float>(kLittle)),
+        Damaged{"npy_plane", "a.npy", npy("<f4", "(2, 9)", numbers<float>(kLittleFrames)),
                 "the array is 2 x 9, and positions are frames x vertices x 3"},
-        Damaged{"npy_four", "a.npy", npy("<f4", "(2, 3, 4)", numbers<float>(kLittle)),
+        Damaged{"npy_four", "a.npy", npy("<f4", "(2, 3, 4)", numbers<float>(kLittleFrames)),
                 "the array is 2 x 3 x 4, and positions"},
-        Damaged{"npy_fortran", "a.npy", npy("<f4", "(2, 3, 3)", numbers<float>(kLittle), true),
-                "fortran_order"},
+        Damaged{"npy_fortran", "a.npy",
+                npy("<f4", "(2, 3, 3)", numbers<float>(kLittleFrames), true), "fortran_order"},
         Damaged{"npy_huge", "a.npy", npy("<f8", "(999999999999999999, 3, 3)", "abcd"),
                 "the file was cut short"},
         Damaged{"other", "a.obj", "v 0 0 0\n", "is no sequence of frames; give numbered meshes"}),
     [](const auto& test) { return test.param.name; });
 
 TEST(FrameFileWithNaN, NamesFrameAndVertexAndTheOthersAreRead) {
-  std::string data = numbers<double>(kLittle);
+  std::string data = numbers<double>(kLittleFrames);
   std::string bad;
-  append_number(bad, std::nan(""), kLittle);
+  append_number(bad, std::nan(""), kLittleFrames);
   data.replace(10 * sizeof(double), sizeof(double), bad);  // frame 1, vertex 0
   const TemporaryDirectory folder;
   const std::string path = folder.write("walk.npy", npy("<f8", "(2, 3, 3)", data));
