@@ -36,8 +36,8 @@ RefinementNeeds find_refinement_needs(const IntrinsicMesh& mesh, const Component
 /// would underflow to no direction, and no boundary edge lies opposite an obtuse angle (above 96
 /// degrees), where its weight would be negative. Large faces get their circumcentre (Chew 1993; on
 /// intrinsic triangulations Sharp, Soliman, Crane 2019, section 4.2); where the way to it leaves
-/// over the boundary, and where a boundary edge is obtuse, the edge is split; edges with three faces
-/// or more, and those between faces that disagree in orientation, are left as they are.
+/// over the boundary, and where a boundary edge is obtuse, the edge is split; edges with three
+/// faces or more, and those between faces that disagree in orientation, are left as they are.
 ///
 /// t is h^2, h the mean length of the part's edges but for those above 2.6 times their mean (so
 /// that `grading` may be below 1), or as much more as keeps the number of vertices to be expected

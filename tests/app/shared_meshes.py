@@ -38,7 +38,7 @@ def sphere(rings, around):
         for r in range(1, rings - 1):
             turn = r % 2
             faces += [(at(r, k), at(r + 1, k + turn), at(r, k + 1)),
-                      (at(r, k + turn), at(r + 1, k), at(r + 1, k + 1))]
+                      (at(r, k + 1 - turn), at(r + 1, k), at(r + 1, k + 1))]
     return points, faces
 
 
