@@ -57,10 +57,8 @@ std::shared_ptr<const WaveSurface> waves_of(const DistanceMethod* method) {
   return nullptr;
 }
 
-/// Only wavefronts walk over inserted vertices.
 RefineRule refine_rule(MethodKind method) {
-  const bool may = method == MethodKind::kWavefront || method == MethodKind::kWavefrontFine;
-  return may ? RefineRule::kWhereNeeded : RefineRule::kNever;
+  return walks_on_inserted(method) ? RefineRule::kWhereNeeded : RefineRule::kNever;
 }
 
 /// Builds the method on the mesh as it is, neither refined nor welded.

@@ -59,7 +59,7 @@ void ModelSolver::move(Model model) {
   model_ = std::move(model);
   for (ReadyMethod& ready : ready_) earlier_.push_back(std::move(ready));
   ready_.clear();
-  waves_.reset();
+  waves_.clear();
   on_waves_.clear();
   reference_.reset();
   paths_.reset();
@@ -107,13 +107,12 @@ Result<std::shared_ptr<const DistanceMethod>> ModelSolver::make(const MethodOpti
     if (kept.threads == options.threads && kept.refine == options.refine) return kept.method;
     on_waves_.erase(at);
   }
-  if (!refined && !waves_) {
-    auto made = build_wave_surface(model_.mesh, part_of(progress, 0.0, 0.5));
-    if (!made) return made.error();
-    waves_ = *std::move(made);
-  }
-  auto made = build_method(model_.mesh, options, part_of(progress, 0.5, 1.0), waves_);
-  if (made) on_waves_[key] = {*made, options.threads, options.refine};
+  auto& waves = waves_[walks_on_inserted(options.method)];
+  auto made = build_method(model_.mesh, options, progress, refined ? nullptr : waves);
+  if (!made) return made;
+  on_waves_[key] = {*made, options.threads, options.refine};
+  const auto* const walks = dynamic_cast<const WaveMethod*>(made->get());
+  if (walks != nullptr && !refined) waves = walks->surface();
   return made;
 }
 
@@ -151,7 +150,8 @@ Result<std::vector<Index>> ModelSolver::nearest_sources(const SourceSet& sources
     return only;
   }
   MethodOptions options;
-  options.method = model_.space ? model_.space->reference_method() : MethodKind::kWavefront;
+  options.method = model_.space ? model_.space->reference_method()
+                                : usual_reference(MethodKind::kHeat, model_.mesh->face_count());
   options.threads = threads;
   if (options.method == MethodKind::kHeat) {  // there is no wave
     return about_model(model_.name,

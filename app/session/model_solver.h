@@ -153,9 +153,10 @@ class ModelSolver {
   Use use_;
   std::optional<MeshSummary> summary_;
   std::vector<MethodOptions> wanted_;
-  std::vector<ReadyMethod> ready_;            ///< the last one made at the end
-  std::vector<ReadyMethod> earlier_;          ///< from before move(), until one has followed
-  std::shared_ptr<const WaveSurface> waves_;  ///< of the mesh; null: not needed so far
+  std::vector<ReadyMethod> ready_;    ///< the last one made at the end
+  std::vector<ReadyMethod> earlier_;  ///< from before move(), until one has followed
+  /// Of the mesh, by walks_on_inserted(): what methods walk over that were needed so far.
+  std::map<bool, std::shared_ptr<const WaveSurface>> waves_;
   struct OnWaves {
     std::shared_ptr<const DistanceMethod> method;
     int threads = 0, refine = 0;

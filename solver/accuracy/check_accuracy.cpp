@@ -114,7 +114,7 @@ Result<ReferenceAnswers> solve_reference(const std::shared_ptr<const TriangleMes
   options.threads = threads;
   const Stopwatch watch;
   std::shared_ptr<const WaveSurface> waves;
-  if (triangulation) {
+  if (triangulation && walks_on_inserted(kind)) {
     auto shared =
         build_wave_surface(std::move(triangulation), part_of(progress, 0.0, kSetUpShare / 2));
     if (!shared) return shared.error();

@@ -196,7 +196,9 @@ Result<Diagnosis> diagnose(const std::shared_ptr<const TriangleMesh>& mesh,
       return build_method_sharing(mesh, options, &answers.method, part);
     }
     auto triangulation = triangulation_for_waves(answers.method);
-    if (!triangulation) return build_method(mesh, options, part);
+    if (!triangulation || !walks_on_inserted(options.method)) {
+      return build_method(mesh, options, part);
+    }
     auto waves = build_wave_surface(std::move(triangulation), part);
     if (!waves) return waves.error();
     return build_method(mesh, options, part, *std::move(waves));

@@ -54,32 +54,27 @@ bool is_obtuse_boundary(const IntrinsicMesh& mesh, Side side) {
          opposite_cotangent(lengths, corner_of(side)) < kObtuse;
 }
 
-}  // namespace
-
-RefinementNeeds find_refinement_needs(const IntrinsicMesh& mesh, const Components& parts,
-                                      std::span<const double> part_edge, int threads) {
-  constexpr std::int64_t kGrain = 1 << 15;  // minimum faces per thread
-  const auto list_large = [&](std::int64_t begin, std::int64_t end, std::vector<Index>& list) {
-    for (auto f = static_cast<Index>(begin); f < static_cast<Index>(end); ++f) {
-      const double edge = parts.count == 1 ? part_edge[0] : part_edge[parts.of[mesh.faces[f][0]]];
-      const auto& l = mesh.lengths[f];
-      if (std::max({l[0], l[1], l[2]}) > kLongest * edge) list.push_back(f);
-    }
-  };
-  const auto list_obtuse = [&](std::int64_t begin, std::int64_t end, std::vector<Side>& list) {
-    for (auto side = static_cast<Side>(begin); side < static_cast<Side>(end); ++side) {
-      if (is_obtuse_boundary(mesh, side)) list.push_back(side);
-    }
-  };
-  return {list_in_parallel<Index>(threads, std::ssize(mesh.faces), kGrain, list_large),
-          list_in_parallel<Side>(threads, std::ssize(mesh.twin), 3 * kGrain, list_obtuse)};
+std::pair<Index, Index> ends_of_boundary(const IntrinsicMesh& mesh, Side side) {
+  const Face& face = mesh.faces[face_of(side)];
+  return std::minmax({face[corner_of(side)], face[next_corner(corner_of(side))]});
 }
 
-namespace {
+/// The ends of edges whose sides are nobody's twins and yet several: with three faces or more, or
+/// between two that disagree in orientation. A vertex on one side alone would open a slit.
+std::vector<std::pair<Index, Index>> joined_boundary(const IntrinsicMesh& mesh) {
+  std::vector<std::pair<Index, Index>> ends, out;
+  for (std::size_t side = 0; side < mesh.twin.size(); ++side) {
+    if (mesh.twin[side] == kNoSide) ends.push_back(ends_of_boundary(mesh, static_cast<Side>(side)));
+  }
+  std::ranges::sort(ends);
+  for (std::size_t i = 1; i < ends.size(); ++i) {
+    if (ends[i] == ends[i - 1]) out.push_back(ends[i]);
+  }
+  return out;
+}
 
 struct MeanLength {
   double sum = 0, count = 0;
-
   void add(double length, double share) {
     sum += share * length;
     count += share;
@@ -191,34 +186,12 @@ Circumcentre find_circumcentre(const IntrinsicMesh& mesh, Index face) {
   return {};
 }
 
-using BoundaryEnds = std::pair<Index, Index>;
-
-BoundaryEnds ends_of_boundary(const IntrinsicMesh& mesh, Side side) {
-  const Face& face = mesh.faces[face_of(side)];
-  return std::minmax({face[corner_of(side)], face[next_corner(corner_of(side))]});
-}
-
-/// The ends of edges whose sides are nobody's twins and yet several: with three faces or more, or
-/// between two that disagree in orientation. A vertex on one side alone would open a slit.
-std::vector<BoundaryEnds> joined_boundary(const IntrinsicMesh& mesh) {
-  std::vector<BoundaryEnds> ends, out;
-  for (Side side = 0; side < static_cast<Side>(mesh.twin.size()); ++side) {
-    if (mesh.twin[side] == kNoSide) ends.push_back(ends_of_boundary(mesh, side));
-  }
-  std::ranges::sort(ends);
-  for (std::size_t i = 1; i < ends.size(); ++i) {
-    if (ends[i] == ends[i - 1]) out.push_back(ends[i]);
-  }
-  return out;
-}
-
 class Refiner {
  public:
   Refiner(IntrinsicMesh& mesh, std::vector<Edit>& edits, Components& parts,
           std::span<const double> part_edge, std::span<const Vec3> positions, Index most,
           Refinement& out)
       : mesh_(mesh), edits_(edits), parts_(parts), positions_(positions), most_(most), out_(out) {
-    joined_ = joined_boundary(mesh);
     for (std::size_t c = 0; c < part_edge.size(); ++c) {
       root_t_.push_back(part_edge[c] * std::sqrt(out.grading[c]));
     }
@@ -228,6 +201,7 @@ class Refiner {
   Result<void> run(const RefinementNeeds& needs, const Progress& progress) {
     constexpr std::int64_t kStepsBetweenCalls = 1 << 12;
     for (Index f = 0; f < mesh_.face_count() && !needs.large.empty(); ++f) note_size(f);
+    needs_ = &needs;
     obtuse_ = needs.obtuse;
     std::ranges::reverse(obtuse_);
     for (std::int64_t step = 0;; ++step) {
@@ -319,7 +293,7 @@ class Refiner {
     const Side other = mesh_.twin[side];
     if (other != kNoSide && face_of(other) == face_of(side)) return;  // glued to itself
     const bool boundary = other == kNoSide;
-    if (boundary && std::ranges::binary_search(joined_, ends_of_boundary(mesh_, side))) return;
+    if (boundary && needs_->is_joined(ends_of_boundary(mesh_, side))) return;
     Weights at{};
     at[corner_of(side)] = 1 - share;
     at[next_corner(corner_of(side))] = share;
@@ -372,7 +346,7 @@ class Refiner {
   std::span<const Vec3> positions_;
   const Index most_;
   Refinement& out_;
-  std::vector<BoundaryEnds> joined_;
+  const RefinementNeeds* needs_ = nullptr;
   std::vector<double> root_t_;                           ///< per part
   std::vector<Side> obtuse_;                             ///< boundary sides, looked at again
   std::priority_queue<std::pair<double, Index>> large_;  ///< faces by size, looked at again
@@ -380,6 +354,32 @@ class Refiner {
 };
 
 }  // namespace
+
+RefinementNeeds find_refinement_needs(const IntrinsicMesh& mesh, const Components& parts,
+                                      std::span<const double> part_edge, int threads) {
+  constexpr std::int64_t kGrain = 1 << 15;  // minimum faces per thread
+  const auto list_large = [&](std::int64_t begin, std::int64_t end, std::vector<Index>& list) {
+    for (auto f = static_cast<Index>(begin); f < static_cast<Index>(end); ++f) {
+      const double edge = parts.count == 1 ? part_edge[0] : part_edge[parts.of[mesh.faces[f][0]]];
+      const auto& l = mesh.lengths[f];
+      if (std::max({l[0], l[1], l[2]}) > kLongest * edge) list.push_back(f);
+    }
+  };
+  const auto list_obtuse = [&](std::int64_t begin, std::int64_t end, std::vector<Side>& list) {
+    for (auto side = static_cast<Side>(begin); side < static_cast<Side>(end); ++side) {
+      if (is_obtuse_boundary(mesh, side)) list.push_back(side);
+    }
+  };
+  RefinementNeeds needs{
+      list_in_parallel<Index>(threads, std::ssize(mesh.faces), kGrain, list_large),
+      list_in_parallel<Side>(threads, std::ssize(mesh.twin), 3 * kGrain, list_obtuse),
+      {}};
+  if (needs.large.empty() && needs.obtuse.empty()) return needs;
+  needs.joined = joined_boundary(mesh);
+  std::erase_if(needs.obtuse,
+                [&](Side side) { return needs.is_joined(ends_of_boundary(mesh, side)); });
+  return needs;
+}
 
 Result<Refinement> refine_triangulation(IntrinsicMesh& mesh, std::vector<Edit>& edits,
                                         Components& parts, std::span<const double> part_edge,

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "geotherm/error.h"
@@ -25,6 +27,12 @@ struct Refinement : RefinementCounts {
 struct RefinementNeeds {
   std::vector<Index> large;  ///< faces
   std::vector<Side> obtuse;  ///< boundary sides
+  /// The lower and higher ends of edges whose sides are nobody's twins and yet several, ascending.
+  std::vector<std::pair<Index, Index>> joined;
+
+  bool is_joined(const std::pair<Index, Index>& ends) const {
+    return std::ranges::binary_search(joined, ends);
+  }
 };
 
 /// Its preconditions and arguments. Cost: one pass over the faces, by all threads.

@@ -52,6 +52,15 @@ Result<bool> flip_where_needed(IntrinsicSurface& surface, int threads, const Pro
   return true;
 }
 
+void note_refinement(const RefinementCounts& refinement, std::vector<Warning>& warnings) {
+  if (refinement.complete) return;
+  warnings.push_back(
+      {counted_text(static_cast<std::size_t>(refinement.points), "vertex was", "vertices were") +
+           " inserted into the triangulation, which is the most for this mesh; where faces are "
+           "still large or the boundary obtuse, distances may be wrong",
+       {"use ", SettingHint{"method", {"exact"}}}});
+}
+
 /// A flag per clean face, empty where none is to be doubled.
 std::vector<char> faces_to_double(const CleanFaces& clean, Index vertex_count, CoverRule rule) {
   switch (rule) {
@@ -242,6 +251,7 @@ Result<IntrinsicSurface> build_intrinsic_surface(std::shared_ptr<const TriangleM
                              vertices + kFewInserted, threads, part_of(progress, 0.75, 1.0));
     if (!refined) return refined.error();
     out.refinement = *std::move(refined);
+    note_refinement(out.refinement, out.warnings);
   }
   out.flips = static_cast<Index>(std::ranges::count(out.edits, Edit::Kind::kFlip, &Edit::kind));
   out.times.flips = watch.lap();

@@ -109,15 +109,6 @@ std::vector<ComponentSize> measure_components(const Surface& surface) {
   return sizes;
 }
 
-void note_refinement(const RefinementCounts& refinement, std::vector<Warning>& warnings) {
-  if (refinement.complete) return;
-  warnings.push_back(
-      {counted_text(static_cast<std::size_t>(refinement.points), "vertex was", "vertices were") +
-           " inserted into the triangulation, which is the most for this mesh; where faces are "
-           "still large or the boundary obtuse, distances may be wrong",
-       {"use ", SettingHint{"method", {"wavefront"}}}});
-}
-
 class MeshInput final : public Domain::Input {
  public:
   MeshInput(std::shared_ptr<const TriangleMesh> mesh, std::shared_ptr<const Surface> earlier,
@@ -199,7 +190,6 @@ Result<std::shared_ptr<const Surface>> build_surface(std::shared_ptr<const Trian
   out->backend = &backend;
   out->unit = out->intrinsic.unit;
   out->input_vertices = out->mesh->vertex_count();
-  note_refinement(out->refinement, out->warnings);
   out->findings = std::move(out->warnings);
   out->input = surface_input(out->mesh);
   if (ready && out->serves_waves()) ready(out);  // what follows leaves the triangulation as it is

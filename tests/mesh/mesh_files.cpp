@@ -246,6 +246,7 @@ std::vector<Sample> pyramid_samples() {
       {"stl_ascii_with_crlf", "a.stl", with_crlf(stl_ascii())},
       {"stl_binary", "a.stl", stl_binary("made by hand")},
       {"stl_binary_that_starts_with_solid", "a.stl", stl_binary("solid but not text")},
+      {"stl_binary_that_starts_with_a_mark", "a.stl", stl_binary("\xef\xbb\xbf made by hand")},
       {"ply_packed", "a.ply.gz", gzipped(ply_ascii)},
   };
   const std::vector<Sample> others = surface_samples();

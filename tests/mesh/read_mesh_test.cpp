@@ -56,6 +56,20 @@ TEST_P(EveryFormat, of_text_gives_the_same_mesh_behind_a_mark_of_utf8_and_with_c
   expect_pyramid("\xef\xbb\xbf" + text);
 }
 
+/// However far its header goes: where CR stood in the numbers, others would stand.
+TEST(BinaryFile, BehindAHeaderOfCrAloneIsRefused) {
+  for (const std::size_t length : {0U, 5000U}) {
+    std::string header =
+        "ply\rformat binary_little_endian 1.0\rcomment " + std::string(length, 'c') +
+        "\relement vertex 3\rproperty float x\rproperty float y\rproperty float z\r"
+        "element face 1\rproperty list uchar int vertex_indices\rend_header\r";
+    const std::string numbers("\r\0\0\x3f\0\0\0\0\0\0\0\0", 12);
+    for (int vertex = 0; vertex < 3; ++vertex) header += numbers;
+    header += std::string("\3\0\0\0\0\1\0\0\0\2\0\0\0", 13);
+    EXPECT_FALSE(read_bytes("a.ply", header)) << length;
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Samples, EveryFormat, testing::ValuesIn(pyramid_samples()),
                          [](const auto& test) { return test.param.name; });
 

@@ -90,6 +90,26 @@ TEST_P(MovedWaves, HaveTheTablesOfAFreshBuild) {
   EXPECT_GT(flips, 10U);
 }
 
+TEST(MovedWavesWithInsertedVertices, AnswerAsFreshOnes) {
+  const MeshPtr mesh = finish(random_delaunay(300, 3));
+  std::mt19937 random(6);
+  std::uniform_real_distribution<double> shift(-0.01, 0.01);
+  MethodOptions options;
+  options.method = MethodKind::kWavefront;
+  auto method = build_method(mesh, options);
+  ASSERT_TRUE(method);
+  const SourceSet set = SourceSet::of_vertices({7});
+  for (int frame = 0; frame < 5; ++frame) {
+    std::vector<Vec3> positions(mesh->positions().begin(), mesh->positions().end());
+    for (Vec3& p : positions) p += Vec3(shift(random), shift(random), 0);
+    const auto moved = std::make_shared<const TriangleMesh>(*mesh->moved(std::move(positions)));
+    ASSERT_GT((*build_wave_surface(moved))->base.refinement.points, 0);
+    method = build_method_moved(moved, options, method->get());
+    ASSERT_TRUE(method);
+    EXPECT_EQ(solve(**method, set).distances, distances(moved, options.method, set)) << frame;
+  }
+}
+
 Draft with_fins() {
   Draft draft = jittered_plane(20, 0.3, 4);
   for (Index i = 0; i < 20; ++i) {  // edges with three faces

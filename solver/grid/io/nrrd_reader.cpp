@@ -4,6 +4,7 @@
 // have the same meaning in capitals, as Teem reads them.
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <utility>
 
 #include "solver/core/text.h"
@@ -161,7 +162,9 @@ class NrrdHeaderReader {
       if (value.starts_with("LIST") || value.find('%') != value.npos) {
         fail(value, "the samples are in several files", {"save them as one"});
       }
-      if (value.starts_with('/') || value.find("..") != value.npos) {
+      const std::filesystem::path file(value);
+      const bool goes_up = std::ranges::find(file, std::filesystem::path("..")) != file.end();
+      if (file.is_absolute() || goes_up) {
         fail(value, "the samples are in " + printable(value) + ", outside the folder of the header",
              {"move them beside it, and name the file alone"});
       }

@@ -10,10 +10,15 @@
 namespace geotherm {
 
 /// The intrinsic Delaunay triangulation of a mesh with its edges, whatever number of faces they
-/// have: what all three walk over. Vertices are inserted where faces are large and the boundary is
-/// obtuse, as heat methods do (LaplacianKind::kRefined); fast marching and exact windows make
-/// themselves one without. Immutable; one serves all of them.
+/// have: what all three walk over. Immutable. For wavefronts vertices are inserted where faces are
+/// large and the boundary is obtuse, as heat methods do (LaplacianKind::kRefined).
 struct WaveSurface;
+
+/// Whether the method walks over inserted vertices. The others, where they are given a surface with
+/// some, make one without.
+inline bool walks_on_inserted(MethodKind method) {
+  return method == MethodKind::kWavefront || method == MethodKind::kWavefrontFine;
+}
 
 /// `earlier`: of the same faces with vertices elsewhere, of which what stays is taken over; or
 /// null. Errors: kBadInput (no face with area, edges that cannot be added up), kOutOfMemory,
@@ -33,7 +38,7 @@ class WaveMethod : public DistanceMethod {
   const SetupTiming& timing() const override;
   double memory_mb() const override;
   const std::vector<Warning>& warnings() const override;
-  const std::shared_ptr<const WaveSurface>& surface() const;  ///< as it was given
+  const std::shared_ptr<const WaveSurface>& surface() const;  ///< that it walks over
 
  protected:
   struct State;

@@ -87,13 +87,17 @@ void wait_for_writer(int descriptor) {
   ::fcntl(descriptor, F_SETFL, ::fcntl(descriptor, F_GETFL) & ~O_NONBLOCK);
 }
 
+bool is_text(std::string_view bytes) {
+  return std::ranges::all_of(bytes, [](char c) {
+    return (c >= '\t' && c <= '\r') || static_cast<unsigned char>(c) >= ' ';
+  });
+}
+
 /// Whether it is text whose lines end with a CR alone, as those of old Macintosh programs do.
-bool ends_lines_with_cr(std::string_view start) {
-  const auto is_text = [](char c) {
-    return c == '\r' || c == '\t' || static_cast<unsigned char>(c) >= ' ';
-  };
-  const std::size_t first = start.find('\r');
-  return first != start.npos && first + 1 < start.size() && std::ranges::all_of(start, is_text);
+bool ends_lines_with_cr(std::string_view text) {
+  const std::size_t first = text.find('\r');
+  return first != text.npos && first + 1 < text.size() && text.find('\n') == text.npos &&
+         is_text(text);
 }
 
 }  // namespace
@@ -175,9 +179,9 @@ Result<void> InputFile::prepare(std::string_view format) {
       if (size() == 0) throw ReadFailure{"nothing is packed in it (0 bytes)"};
     }
     constexpr std::string_view kMark = "\xef\xbb\xbf";
-    if (start(kMark.size()) == kMark) begins_ = kMark.size();
     constexpr std::size_t kLooked = 4096;
-    if (ends_lines_with_cr(start(kLooked))) {
+    if (start(kMark.size()) == kMark && is_text(start(kLooked))) begins_ = kMark.size();
+    if (ends_lines_with_cr(start(kLooked)) && ends_lines_with_cr(FileBytes(*this).bytes())) {
       RawVector<char> lines(size() + kPadding);
       std::ranges::replace_copy(FileBytes(*this).bytes(), lines.begin(), '\r', '\n');
       std::fill(lines.end() - kPadding, lines.end(), '\0');
