@@ -181,7 +181,7 @@ TEST_F(SessionThread, AStudyThatWasCancelledSaysSoAndBeginsAgain) {
 
 TEST_F(SessionThread, AStudyGivesWayToAComparison) {
   // With a sanitizer the small one takes long enough to be still at work.
-  ASSERT_TRUE(threaded.submit(command::Open{kSanitized ? small_model() : "terrain"}));
+  ASSERT_TRUE(threaded.submit(command::Open{test::kSanitized ? small_model() : "terrain"}));
   ASSERT_TRUE(threaded.finish());
   threaded.study();
   ASSERT_TRUE(threaded.submit(command::Compare{"native"}));
