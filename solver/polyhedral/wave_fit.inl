@@ -210,19 +210,23 @@ Index label_of(const Front<Samples>& front, double half, double x, double y, dou
     return front.label_b;
   }
   double at = 0;  // where the path crosses, from -half to half
+  const auto take_plane = [&](double at_0, double at_length, double begin, double length) {
+    if (!(plane_wave(at_0, at_length, length, x - begin, y) <= value + margin)) return;
+    const double ux = (at_length - at_0) / length;
+    at = x - y * ux / __builtin_sqrt(1 - ux * ux);
+  };
   for (const Fit& fit : front.fits) {
     if (fit.kind == Fit::Kind::kKinked) {
-      const double from = x - fit.centre;
-      if (plane_wave(fit.left, fit.middle, fit.half, from + fit.half, y) <= value + margin) {
-        at = fit.centre - fit.half / 2;
-      } else if (plane_wave(fit.middle, fit.right, fit.half, from, y) <= value + margin) {
-        at = fit.centre + fit.half / 2;
-      }
+      take_plane(fit.middle, fit.right, fit.centre, fit.half);
+      take_plane(fit.left, fit.middle, fit.centre - fit.half, fit.half);
     } else if (fit.kind == Fit::Kind::kWave) {
       const double from = x - fit.centre;
       const double gx = fit.k * from - fit.ux, gy = fit.k * y + fit.uy;
       const double ray = from - y * gx / gy;
-      if (gy > 0 && ray >= -fit.half && ray <= fit.half) at = fit.centre + ray;
+      const double q = fit.k * (from * from + y * y) + 2 * (fit.uy * y - fit.ux * from);
+      const double arrives = fit.middle + q / (1 + __builtin_sqrt(1 + fit.k * q));
+      const bool crosses = gy > 0 && ray >= -fit.half && ray <= fit.half;
+      if (crosses && arrives <= value + margin) at = fit.centre + ray;
     }
   }
   const double step = (at + half) / (2 * half) * (Samples + 1);

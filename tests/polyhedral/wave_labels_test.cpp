@@ -53,6 +53,21 @@ INSTANTIATE_TEST_SUITE_P(Zoo, Labels,
                                           testing::ValuesIn(kWaveKinds)),
                          name_and_kind);
 
+/// The way to vertex 4 crosses an edge between two sources' realms beside its far end, where the
+/// nearest sample is the other source's.
+TEST(LabelsOnFewFaces, AreThoseOfWhereTheWayCrosses) {
+  Draft draft;
+  draft.positions = {{-0.9959, -0.0812, 0}, {0.8987, 0.4372, 0},  {-0.7063, -0.7068, 0},
+                     {0.6552, 0.7542, 0},   {-0.9988, 0.0397, 0}, {-0.9227, -0.3842, 0}};
+  draft.faces = {{3, 2, 1}, {0, 3, 4}, {3, 0, 2}, {0, 5, 2}};
+  const MeshPtr few = finish(draft);
+  for (const MethodKind kind : kRoundWaves) {
+    const auto answer =
+        solve(*method_of(few, kind), SourceSet::of_vertices({3, 2, 1}), kWithLabels);
+    EXPECT_EQ(answer.nearest_source, (std::vector<Index>{1, 2, 1, 0, 1, 1})) << kind_name(kind);
+  }
+}
+
 class LabelGroups : public testing::TestWithParam<MethodKind> {};
 
 TEST_P(LabelGroups, HaveOneNumberForAConnectedCurve) {
