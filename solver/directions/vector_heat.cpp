@@ -25,10 +25,8 @@ std::shared_ptr<const Surface> surface_of(const HeatMethod* method, const Triang
   const auto triangulation = method != nullptr ? method->delaunay_triangulation() : nullptr;
   if (!triangulation) return nullptr;
   auto surface = std::static_pointer_cast<const Surface>(triangulation);
-  const bool refined =
-      surface->asked == LaplacianKind::kAuto || surface->asked == LaplacianKind::kRefined;
   const bool same = surface->mesh.get() == mesh && surface->backend == backend;
-  return refined && same ? surface : nullptr;
+  return same ? surface : nullptr;
 }
 
 /// The power of two that brings the largest of some numbers to between 1 and 2; 0 where all are 0.

@@ -204,14 +204,8 @@ class DirectionPass {
 
   /// The way of a fitted wave to (x, y), from the middle of the three nodes that it was fitted to.
   void along(const Fit& fit, double x, double y, const std::array<std::size_t, 3>& nodes) {
-    const double q = fit.k * (x * x + y * y) + 2 * (fit.uy * y - fit.ux * x);
-    const double square = 1 + fit.k * q;
-    const double gx = fit.k * x - fit.ux, gy = fit.k * y + fit.uy;
-    if (!(square > 0) || !(gy > 0)) return;
-    const double arrives = fit.middle + q / (1 + std::sqrt(square));
-    const double at = x - y * gx / gy;
-    if (!(std::abs(at) <= fit.half * (1 + direction_waves::kRayTolerance))) return;
-    if (!counts(arrives)) return;
+    const auto [arrives, at] = direction_waves::ray_to(fit, x, y);
+    if (!counts(arrives)) return;  // infinite where the ray misses the edge
     const double found = between(fit, at, nodes);
     const std::size_t nearest = at < -fit.half / 2 ? 0 : at < fit.half / 2 ? 1 : 2;
     if (!std::isnan(found)) add({arrives, found, nodes[nearest]});

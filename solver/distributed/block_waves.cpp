@@ -29,9 +29,7 @@ std::vector<char> faces_of_piece(const IntrinsicMesh& mesh, Index own) {
     for (Side side = 0; side < static_cast<Side>(mesh.twin.size()); ++side) {
       const Side twin = mesh.twin[side];
       if (!in[face_of(side)] || (twin != kNoSide && in[face_of(twin)])) continue;
-      const Face& face = mesh.faces[face_of(side)];
-      cuts.push_back(
-          {std::minmax(face[corner_of(side)], face[next_corner(corner_of(side))]), side});
+      cuts.push_back({ends_of(mesh, side), side});
     }
     std::ranges::sort(cuts, {}, &Cut::ends);
     for (std::size_t i = 1; i < cuts.size(); ++i) {

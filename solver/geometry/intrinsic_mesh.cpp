@@ -166,16 +166,13 @@ std::vector<Side> first_sides(const IntrinsicMesh& mesh) {
     first[side] = twin == kNoSide ? side : std::min(side, twin);
     if (twin == kNoSide || twin == side) alone.push_back(side);
   }
-  const auto ends = [&mesh](Side side) {
-    const Face& face = mesh.faces[face_of(side)];
-    return std::minmax({face[corner_of(side)], face[next_corner(corner_of(side))]});
-  };
   std::ranges::sort(alone, [&](Side a, Side b) {
-    const auto pair_a = ends(a), pair_b = ends(b);
+    const auto pair_a = ends_of(mesh, a), pair_b = ends_of(mesh, b);
     return pair_a != pair_b ? pair_a < pair_b : a < b;
   });
   for (std::size_t i = 1; i < alone.size(); ++i) {
-    if (ends(alone[i]) == ends(alone[i - 1])) first[alone[i]] = first[alone[i - 1]];
+    if (ends_of(mesh, alone[i]) == ends_of(mesh, alone[i - 1]))
+      first[alone[i]] = first[alone[i - 1]];
   }
   return first;
 }

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "geotherm/mesh_report.h"
@@ -72,6 +74,12 @@ std::vector<Side> first_sides(const IntrinsicMesh& mesh);
 /// Mean length over the edges (each counted once), model units; 0 where there are none. The same
 /// bits with any number of threads.
 double mean_edge_length(std::span<const Vec3> positions, const EdgeTable& edges, int threads = 1);
+
+/// The vertices of a side, the lower one first.
+inline std::pair<Index, Index> ends_of(const IntrinsicMesh& mesh, Side side) {
+  const Face& face = mesh.faces[face_of(side)];
+  return std::minmax({face[corner_of(side)], face[next_corner(corner_of(side))]});
+}
 
 /// |v|, also where its square is out of the doubles' range. A vector scaled by a power of two has
 /// the norm scaled by that, to the last bit.

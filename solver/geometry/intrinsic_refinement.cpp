@@ -54,22 +54,15 @@ bool is_obtuse_boundary(const IntrinsicMesh& mesh, Side side) {
          opposite_cotangent(lengths, corner_of(side)) < kObtuse;
 }
 
-std::pair<Index, Index> ends_of_boundary(const IntrinsicMesh& mesh, Side side) {
-  const Face& face = mesh.faces[face_of(side)];
-  return std::minmax({face[corner_of(side)], face[next_corner(corner_of(side))]});
-}
-
 /// The ends of edges whose sides are nobody's twins and yet several: with three faces or more, or
 /// between two that disagree in orientation. A vertex on one side alone would open a slit.
 std::vector<std::pair<Index, Index>> joined_boundary(const IntrinsicMesh& mesh) {
-  std::vector<std::pair<Index, Index>> ends, out;
-  for (std::size_t side = 0; side < mesh.twin.size(); ++side) {
-    if (mesh.twin[side] == kNoSide) ends.push_back(ends_of_boundary(mesh, static_cast<Side>(side)));
+  const std::vector<Side> first = first_sides(mesh);
+  std::vector<std::pair<Index, Index>> out;
+  for (Side side = 0; side < static_cast<Side>(first.size()); ++side) {
+    if (mesh.twin[side] == kNoSide && first[side] != side) out.push_back(ends_of(mesh, side));
   }
-  std::ranges::sort(ends);
-  for (std::size_t i = 1; i < ends.size(); ++i) {
-    if (ends[i] == ends[i - 1]) out.push_back(ends[i]);
-  }
+  std::ranges::sort(out);
   return out;
 }
 
@@ -293,7 +286,7 @@ class Refiner {
     const Side other = mesh_.twin[side];
     if (other != kNoSide && face_of(other) == face_of(side)) return;  // glued to itself
     const bool boundary = other == kNoSide;
-    if (boundary && needs_->is_joined(ends_of_boundary(mesh_, side))) return;
+    if (boundary && needs_->is_joined(ends_of(mesh_, side))) return;
     Weights at{};
     at[corner_of(side)] = 1 - share;
     at[next_corner(corner_of(side))] = share;
@@ -376,8 +369,7 @@ RefinementNeeds find_refinement_needs(const IntrinsicMesh& mesh, const Component
       {}};
   if (needs.large.empty() && needs.obtuse.empty()) return needs;
   needs.joined = joined_boundary(mesh);
-  std::erase_if(needs.obtuse,
-                [&](Side side) { return needs.is_joined(ends_of_boundary(mesh, side)); });
+  std::erase_if(needs.obtuse, [&](Side side) { return needs.is_joined(ends_of(mesh, side)); });
   return needs;
 }
 

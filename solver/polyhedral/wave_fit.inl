@@ -161,6 +161,19 @@ Values wave(const Fit& fit, const Values& at, const Values& y, const Values& yy)
   return valid ? value : far;
 }
 
+/// wave() to one target, seen from the fit's centre, and where its ray crosses the edge.
+struct Ray {
+  double arrives, at;
+};
+inline Ray ray_to(const Fit& fit, double x, double y) {
+  const double q = fit.k * (x * x + y * y) + 2 * (fit.uy * y - fit.ux * x);
+  const double square = 1 + fit.k * q;
+  const double gx = fit.k * x - fit.ux, gy = fit.k * y + fit.uy;
+  const double at = x - y * gx / gy, reach = fit.half * (1 + kRayTolerance);
+  if (!(square > 0) || !(gy > 0) || !(at <= reach && at >= -reach)) return {kFar, 0};
+  return {fit.middle + q / (1 + __builtin_sqrt(square)), at};
+}
+
 /// Two planes, one through each half.
 inline double kinked(const Fit& fit, double at, double y) {
   const double x = at - fit.centre;
@@ -220,13 +233,8 @@ Index label_of(const Front<Samples>& front, double half, double x, double y, dou
       take_plane(fit.middle, fit.right, fit.centre, fit.half);
       take_plane(fit.left, fit.middle, fit.centre - fit.half, fit.half);
     } else if (fit.kind == Fit::Kind::kWave) {
-      const double from = x - fit.centre;
-      const double gx = fit.k * from - fit.ux, gy = fit.k * y + fit.uy;
-      const double ray = from - y * gx / gy;
-      const double q = fit.k * (from * from + y * y) + 2 * (fit.uy * y - fit.ux * from);
-      const double arrives = fit.middle + q / (1 + __builtin_sqrt(1 + fit.k * q));
-      const bool crosses = gy > 0 && ray >= -fit.half && ray <= fit.half;
-      if (crosses && arrives <= value + margin) at = fit.centre + ray;
+      const Ray ray = ray_to(fit, x - fit.centre, y);
+      if (ray.arrives <= value + margin) at = fit.centre + ray.at;
     }
   }
   const double step = (at + half) / (2 * half) * (Samples + 1);

@@ -14,14 +14,6 @@
 namespace geotherm {
 namespace {
 
-using SideEnds = std::pair<Index, Index>;
-
-SideEnds ends_of(const IntrinsicMesh& mesh, Side side) {
-  const Face& face = mesh.faces[face_of(side)];
-  const int k = corner_of(side);
-  return std::minmax({face[k], face[next_corner(k)]});
-}
-
 /// Gives the faces that were changed their corners and edges. Edges between two of them are
 /// numbered anew, by the numbers of those that are gone.
 class FaceCarrier {
@@ -105,8 +97,9 @@ class FaceCarrier {
   const IntrinsicMesh &old_, &mesh_;
   WaveTables& tables_;
   std::vector<char> changed_;
-  std::vector<Index> free_;                       ///< edges between two of the faces, before
-  std::vector<std::pair<SideEnds, Index>> lone_;  ///< their edges whose sides have no twins
+  std::vector<Index> free_;  ///< edges between two of the faces, before
+  /// Their edges whose sides have no twins, by the ends of these.
+  std::vector<std::pair<std::pair<Index, Index>, Index>> lone_;
   std::size_t next_ = 0;
 };
 

@@ -180,13 +180,17 @@ Result<void> InputFile::prepare(std::string_view format) {
     }
     constexpr std::string_view kMark = "\xef\xbb\xbf";
     constexpr std::size_t kLooked = 4096;
-    if (start(kMark.size()) == kMark && is_text(start(kLooked))) begins_ = kMark.size();
-    if (ends_lines_with_cr(start(kLooked)) && ends_lines_with_cr(FileBytes(*this).bytes())) {
-      RawVector<char> lines(size() + kPadding);
-      std::ranges::replace_copy(FileBytes(*this).bytes(), lines.begin(), '\r', '\n');
-      std::fill(lines.end() - kPadding, lines.end(), '\0');
-      held_ = std::make_shared<const RawVector<char>>(std::move(lines));
-      begins_ = 0;
+    const std::string first = start(kLooked);
+    if (first.starts_with(kMark) && is_text(first)) begins_ = kMark.size();
+    if (ends_lines_with_cr(first)) {
+      const FileBytes whole(*this);
+      if (ends_lines_with_cr(whole.bytes())) {
+        RawVector<char> lines(size() + kPadding);
+        std::ranges::replace_copy(whole.bytes(), lines.begin(), '\r', '\n');
+        std::fill(lines.end() - kPadding, lines.end(), '\0');
+        held_ = std::make_shared<const RawVector<char>>(std::move(lines));
+        begins_ = 0;
+      }
     }
     extension_ = format.empty() ? model_extension(path_) : "." + std::string(format);
     // FreeSurfer names its surfaces lh.white, rh.pial and the like.
