@@ -35,6 +35,10 @@ std::size_t faces_worth_walking(const ComponentSize& component, std::size_t sour
 
 constexpr int kSamples = 1;  ///< on each edge
 
+/// Ways along edges whose lengths differ by no more than round-off are equal: what is near a source
+/// must not change with the unit of the model.
+constexpr double kEqual = 1 + 1e-9;
+
 /// Gives keys the numbers 0, 1, ... as they come: a hash table with open addressing, which hundreds
 /// of keys pass a few times each.
 class Numbering {
@@ -102,7 +106,7 @@ class Surroundings {
     double last = 0;
     while (!queue_.empty()) {
       const auto [distance, number] = queue_.top();
-      if (faces_.keys().size() >= most && distance > last) break;  // no order among equals
+      if (faces_.keys().size() >= most && distance > kEqual * last) break;  // no order among equals
       last = distance;
       queue_.pop();
       if (vertices_[number].whole) continue;
@@ -226,7 +230,7 @@ class Surroundings {
     Vertex& vertex = vertices_[number];
     if (!(distance < vertex.along_edges)) return;
     vertex.along_edges = distance;
-    if (distance * per_length_ <= kRadius) queue_.emplace(distance, number);
+    if (distance * per_length_ <= kEqual * kRadius) queue_.emplace(distance, number);
   }
 
   /// A face whose corners have been reached.

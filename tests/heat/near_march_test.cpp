@@ -127,6 +127,34 @@ TEST(NearField, CountsAPointInAFaceAsOneSource) {
   }
 }
 
+TEST(NearField, IsTheSameInAnyUnitWhereWaysAlongEdgesAreEqual) {
+  // A square of squares whose diagonals alternate, one vertex far above it, so that vertices are
+  // inserted and waves walk around the source.
+  constexpr Index kSide = 9, kAbove = 68, kSource = 57;
+  const auto spike = [&](double unit) {
+    Draft draft;
+    for (Index i = 0; i < kSide * kSide; ++i) {
+      draft.positions.push_back(unit / (kSide - 1) * Vec3(i / kSide, i % kSide, 0));
+    }
+    draft.positions[kAbove].z() += unit / 2;
+    for (Index i = 0; i + 1 < kSide; ++i) {
+      for (Index j = 0; j + 1 < kSide; ++j) {
+        const Index a = i * kSide + j, b = a + kSide, c = b + 1, d = a + 1;
+        const bool rises = (i + j) % 2 == 1;
+        draft.faces.push_back({a, b, rises ? c : d});
+        draft.faces.push_back(rises ? Face{a, c, d} : Face{b, c, d});
+      }
+    }
+    return solve(finish(draft), {kSource}).distances;
+  };
+  const std::vector<double> reference = spike(1);
+  for (const double unit : {0.3, 0.7, 3.0}) {
+    std::vector<double> distances = spike(unit);
+    for (double& distance : distances) distance /= unit;
+    EXPECT_LE(relative_difference(distances, reference), 1e-9) << "unit " << unit;
+  }
+}
+
 TEST(NearField, IsLeftOutAroundCurves) {
   const auto mesh = finish(plane_grid(40, 40, 1, 1));
   SourceSet curve;
