@@ -19,8 +19,8 @@ namespace {
 class SessionThreadSaves : public SessionThread {
  protected:
   void begin() {
-    ASSERT_TRUE(threaded.submit(command::Open{"terrain"}));
-    ASSERT_TRUE(threaded.submit(command::SetSources{test::sources_in({"7", "1900"})}));
+    ASSERT_TRUE(threaded.submit(command::Open{small_model()}));
+    ASSERT_TRUE(threaded.submit(command::SetSources{test::sources_in({"7", "190"})}));
     ASSERT_TRUE(threaded.finish());
   }
   /// A name that no file can have, which only writing finds.
@@ -45,7 +45,7 @@ TEST_F(SessionThreadSaves, WriteWhatWasShownWhileTheSessionGoesOn) {
   ASSERT_TRUE(threaded.submit(command::SetSources{test::sources_in({"4"})}));
   ASSERT_TRUE(threaded.finish());
   EXPECT_EQ(test::texts_of(threaded.explored().sources), std::vector<std::string>{"4"});
-  run({"open terrain", "source set 7 1900", "save distances " + folder() + "b.ply",
+  run({"open " + small_model(), "source set 7 190", "save distances " + folder() + "b.ply",
        "save distances " + folder() + "b.csv"});
   EXPECT_FALSE(bytes_of("b.ply").empty());
   EXPECT_EQ(bytes_of("a.ply"), bytes_of("b.ply"));
@@ -74,7 +74,7 @@ TEST_F(SessionThreadSaves, ThatFailAreSeenBeforeTheEnd) {
   for (const char* const word : {"save", "quit"}) {
     EXPECT_EQ(threaded.script().find(word), std::string::npos) << threaded.script();
   }
-  run({"open terrain", "source set 7 1900"});
+  run({"open " + small_model(), "source set 7 190"});
   EXPECT_EQ(sentence(finished.error()), refused("save distances " + too_long()));
 }
 
@@ -91,8 +91,9 @@ TEST_F(SessionThreadSaves, OfAUserThatFailEndNoScript) {
 
 TEST_F(SessionThreadSaves, EndAScriptAsWithoutThreads) {
   const std::string path = folder() + "s.geotherm";
-  const std::string lines = "open terrain\nsource set 7 1900\nsave distances " + folder() +
-                            "a.ply\nsave distances " + too_long() + "\nsource set 8\nquit\n";
+  const std::string lines = "open " + small_model() + "\nsource set 7 190\nsave distances " +
+                            folder() + "a.ply\nsave distances " + too_long() +
+                            "\nsource set 8\nquit\n";
   write(path, lines);
   ASSERT_TRUE(threaded.submit(command::Run{path}));
   const auto finished = threaded.finish();

@@ -3,8 +3,10 @@
 
 #include <atomic>
 #include <mutex>
+#include <string>
 
 #include "tests/explore/session_fixture.h"
+#include "tests/support/sanitized.h"
 
 namespace geotherm::app {
 
@@ -20,6 +22,10 @@ class SessionThread : public SessionFixture {
           };
           return hooks;
         }()) {}
+
+  /// So large that the work goes on when it is cancelled; with a sanitizer the small one takes long
+  /// enough.
+  std::string slow_model() { return test::kSanitized ? small_model() : "terrain"; }
 
   std::atomic<int> wakes = 0;
   std::mutex gate;  ///< while a test holds it, workers wait where a stage begins

@@ -137,8 +137,7 @@ TEST_F(SessionThread, EndsWhileWorkGoesOn) {
 }
 
 TEST_F(SessionThread, CancelEndsTheWorkAndTheNextCommandStartsItAgain) {
-  // So large that the work goes on when it is cancelled.
-  ASSERT_TRUE(threaded.submit(command::Open{"terrain"}));
+  ASSERT_TRUE(threaded.submit(command::Open{slow_model()}));
   ASSERT_TRUE(threaded.finish());
   ASSERT_TRUE(threaded.submit(command::Set{"time-factor", "2"}));
   threaded.cancel();
@@ -153,7 +152,7 @@ TEST_F(SessionThread, CancelEndsTheWorkAndTheNextCommandStartsItAgain) {
 }
 
 TEST_F(SessionThread, CancelOfACheckLeavesTheDistancesAndIsNoFailure) {
-  ASSERT_TRUE(threaded.submit(command::Open{"terrain"}));
+  ASSERT_TRUE(threaded.submit(command::Open{slow_model()}));
   while (threaded.stale()) {
     std::this_thread::sleep_for(1ms);
     threaded.update();
@@ -167,7 +166,7 @@ TEST_F(SessionThread, CancelOfACheckLeavesTheDistancesAndIsNoFailure) {
 }
 
 TEST_F(SessionThread, AStudyThatWasCancelledSaysSoAndBeginsAgain) {
-  ASSERT_TRUE(threaded.submit(command::Open{"terrain"}));
+  ASSERT_TRUE(threaded.submit(command::Open{slow_model()}));
   ASSERT_TRUE(threaded.finish());
   threaded.study();
   ASSERT_TRUE(threaded.error_study().running);
@@ -180,8 +179,7 @@ TEST_F(SessionThread, AStudyThatWasCancelledSaysSoAndBeginsAgain) {
 }
 
 TEST_F(SessionThread, AStudyGivesWayToAComparison) {
-  // With a sanitizer the small one takes long enough to be still at work.
-  ASSERT_TRUE(threaded.submit(command::Open{test::kSanitized ? small_model() : "terrain"}));
+  ASSERT_TRUE(threaded.submit(command::Open{slow_model()}));
   ASSERT_TRUE(threaded.finish());
   threaded.study();
   ASSERT_TRUE(threaded.submit(command::Compare{"native"}));

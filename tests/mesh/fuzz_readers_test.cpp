@@ -10,7 +10,7 @@
 namespace geotherm::test {
 namespace {
 
-constexpr int kInputs = 1000;  // for each sample; 4 to 10 samples a format
+constexpr int kInputs = 500;  // for each sample; 4 to 10 samples a format
 constexpr std::uint64_t kSeed = 20251;
 
 std::size_t below(std::mt19937_64& random, std::size_t bound) { return random() % bound; }
