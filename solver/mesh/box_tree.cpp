@@ -2,11 +2,16 @@
 #include "solver/mesh/box_tree.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <span>
+
+#include "solver/mesh/connectivity.h"
 
 namespace geotherm {
 namespace {
 
+constexpr double kBoxPad = 1e-13;  // units of the frame
 constexpr int kSplitBins = 16;
 constexpr std::size_t kBoxLeaf = 4;         // most items of a leaf
 constexpr float kStepCost = 1.0F;           // of a node, in tests of an item
@@ -123,6 +128,35 @@ struct Task {
 };
 
 }  // namespace
+
+BoxFrame frame_of(const TriangleMesh& mesh) {
+  constexpr double kMax = std::numeric_limits<double>::max();
+  Vec3 low = Vec3::Constant(kMax), high = Vec3::Constant(-kMax);
+  for (const Face& face : mesh.faces()) {
+    if (repeats_corner(face)) continue;
+    for (const Index v : face) {
+      low = low.cwiseMin(mesh.positions()[v]);
+      high = high.cwiseMax(mesh.positions()[v]);
+    }
+  }
+  BoxFrame frame;
+  if (!(low[0] <= high[0])) return frame;
+  frame.centre = low / 2 + high / 2;
+  std::frexp((high / 2 - low / 2).maxCoeff(), &frame.exponent);
+  frame.exponent = std::max(frame.exponent, -1022);  // 2^1022 is the largest scale in range
+  frame.scale = std::ldexp(1.0, -frame.exponent);
+  return frame;
+}
+
+FloatBox box_of(const std::array<Vec3, 3>& corners) {
+  FloatBox box;
+  for (int k = 0; k < 3; ++k) {
+    const auto [low, high] = std::minmax({corners[0][k], corners[1][k], corners[2][k]});
+    box.low[k] = round_down(low - kBoxPad);
+    box.high[k] = -round_down(-high - kBoxPad);
+  }
+  return box;
+}
 
 Result<BoxTree> build_box_tree(std::vector<BoxItem> items, const Progress& progress) {
   BoxTree tree;

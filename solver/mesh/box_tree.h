@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "geotherm/error.h"
+#include "geotherm/mesh.h"
 #include "geotherm/progress.h"
 #include "geotherm/types.h"
 
@@ -34,6 +35,23 @@ struct FloatBox {
  private:
   static constexpr float kFar = std::numeric_limits<float>::infinity();
 };
+
+/// Maps the model into [-1, 1]^3: by a power of two, so that nothing over- or underflows and
+/// scaling rounds nothing.
+struct BoxFrame {
+  Vec3 centre = Vec3::Zero();
+  int exponent = 0;  ///< the unit is 2^exponent model units
+  double scale = 1;
+
+  Vec3 into(const Vec3& p) const { return (p - centre) * scale; }
+};
+
+/// That of the faces that repeat no corner.
+BoxFrame frame_of(const TriangleMesh& mesh);
+
+/// The box of a triangle in a frame, larger on all sides by more than the round-off of a point that
+/// meets a ray (coordinates below 16), so that a face is never met outside of its box.
+FloatBox box_of(const std::array<Vec3, 3>& corners);
 
 /// Something with an extent; `id` means something to the caller alone.
 struct BoxItem {

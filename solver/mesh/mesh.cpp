@@ -8,7 +8,6 @@
 #include "geotherm/sources.h"
 #include "solver/core/sorting.h"
 #include "solver/core/text.h"
-#include "solver/mesh/local_simplex.h"
 
 namespace geotherm {
 
@@ -191,37 +190,6 @@ SourceGroups source_groups(const SourceSet& sources) {
   }
   groups.count += static_cast<Index>(sources.cell_points.size());
   return groups;
-}
-
-Result<ClosestPoint> closest_point(const TriangleMesh& mesh, const Vec3& query) {
-  if (!query.allFinite()) {
-    return Error{ErrorCode::kBadInput, "the point has a coordinate that is not finite"};
-  }
-  std::array<double, 3> best{};
-  double distance = std::numeric_limits<double>::infinity();
-  Index best_face = kNoIndex;
-  for (Index f = 0; f < mesh.face_count(); ++f) {
-    const Face& face = mesh.faces()[f];
-    if (face[0] == face[1] || face[1] == face[2] || face[2] == face[0]) continue;
-    const auto p = mesh.positions();
-    LocalSimplex<3> local({p[face[0]], p[face[1]], p[face[2]]}, query);
-    local.offer_triangle(0, 1, 2);
-    for (std::size_t k = 0; k < 3; ++k) local.offer_edge(k, (k + 1) % 3);
-    if (!(local.distance < distance)) continue;
-    distance = local.distance;
-    best = local.weights;
-    best_face = f;
-  }
-  if (best_face == kNoIndex) {
-    return Error{ErrorCode::kBadInput,
-                 "none of the " + std::to_string(mesh.face_count()) +
-                     " faces can hold a point; each repeats a corner or is infinitely far"};
-  }
-  for (int k = 0; k < 3; ++k) {
-    if (best[k] != 1.0) continue;
-    return ClosestPoint{SurfacePoint::at_vertex(mesh.faces()[best_face][k]), distance};
-  }
-  return ClosestPoint{SurfacePoint::in_face(best_face, best), distance};
 }
 
 }  // namespace geotherm

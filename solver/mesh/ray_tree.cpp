@@ -15,57 +15,15 @@
 namespace geotherm {
 namespace {
 
-/// Added to every box on all sides, in units of the frame: more than the round-off of a point that
-/// meets a ray (coordinates below 16), so that a face is never met outside of its box.
-constexpr double kPad = 1e-13;
-
 /// Origins farther out than this (frame units) are moved towards the model along the ray.
 constexpr double kNear = 4;
 
 /// Coordinates of a model that has moved (frame units) up to which it lies nearer than that.
 constexpr double kMaxReach = 2;
 
-/// Components of a direction are taken to be at least this, which moves no ray by as much as kPad.
+/// Components of a direction are taken to be at least this, which moves no ray by as much as boxes
+/// are padded.
 constexpr double kMinComponent = 1e-30;
-
-/// Maps the model into [-1, 1]^3: by a power of two, so that nothing over- or underflows and
-/// scaling rounds nothing.
-struct Frame {
-  Vec3 centre = Vec3::Zero();
-  int exponent = 0;  // the unit is 2^exponent model units
-  double scale = 1;
-
-  Vec3 into(const Vec3& p) const { return (p - centre) * scale; }
-};
-
-Frame frame_of(const TriangleMesh& mesh) {
-  constexpr double kMax = std::numeric_limits<double>::max();
-  Vec3 low = Vec3::Constant(kMax), high = Vec3::Constant(-kMax);
-  for (const Face& face : mesh.faces()) {
-    if (repeats_corner(face)) continue;
-    for (const Index v : face) {
-      low = low.cwiseMin(mesh.positions()[v]);
-      high = high.cwiseMax(mesh.positions()[v]);
-    }
-  }
-  Frame frame;
-  if (!(low[0] <= high[0])) return frame;
-  frame.centre = low / 2 + high / 2;
-  std::frexp((high / 2 - low / 2).maxCoeff(), &frame.exponent);
-  frame.exponent = std::max(frame.exponent, -1022);  // 2^1022 is the largest scale in range
-  frame.scale = std::ldexp(1.0, -frame.exponent);
-  return frame;
-}
-
-FloatBox box_of(const std::array<Vec3, 3>& corners) {
-  FloatBox box;
-  for (int k = 0; k < 3; ++k) {
-    const auto [low, high] = std::minmax({corners[0][k], corners[1][k], corners[2][k]});
-    box.low[k] = round_down(low - kPad);
-    box.high[k] = -round_down(-high - kPad);
-  }
-  return box;
-}
 
 /// What a ray brings to every test, in the frame. Its direction's largest component is +-1.
 struct Ray {
@@ -165,7 +123,7 @@ std::array<double, 3> weights_of(const Best& best) {
 
 struct RayTree::State {
   std::shared_ptr<const TriangleMesh> mesh;
-  Frame frame;
+  BoxFrame frame;
   BoxTree tree;
 
   std::array<Vec3, 3> corners(Index f) const {

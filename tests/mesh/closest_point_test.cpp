@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "geotherm/path.h"
+#include "solver/mesh/closest_point_tree.h"
 #include "tests/support/shapes.h"
 
 namespace geotherm::test {
@@ -95,6 +96,44 @@ TEST(ClosestPoint, IsTheSameAtEveryScale) {
     ASSERT_TRUE(found) << scale;
     EXPECT_NEAR(found->distance / scale, 0.5, kPointRoundOff) << scale;
   }
+}
+
+TEST(ClosestPoint, IsTheSameByATreeToTheLastBitAlsoAmongEquals) {
+  for (const double scale : {1e-200, 1.0, 1e9, 1e200}) {
+    for (const Draft& shape : {torus(24, 12, 0.4), plane_grid(9, 9, 1, 1), sphere(2)}) {
+      const MeshPtr mesh = finish(transformed(shape, scale, Vec3(3, -2, 5) * scale, false));
+      const auto tree = ClosestPointTree::build(*mesh, {});
+      ASSERT_TRUE(tree);
+      const auto compare = [&](const Vec3& query) {
+        const auto one = closest_point(*mesh, query), other = tree->to(query);
+        ASSERT_TRUE(one && other);
+        EXPECT_EQ(other->point, one->point) << scale << ": " << query.transpose();
+        EXPECT_EQ(other->distance, one->distance) << scale << ": " << query.transpose();
+      };
+      for (int i = 0; i < 60; ++i) {
+        const Vec3 about(std::sin(3.0 * i), 2 * std::cos(5.0 * i), std::sin(7.0 * i));
+        compare(scale * (Vec3(3, -2, 5) + about * std::pow(10.0, i % 5)));
+        compare(scale * about * 1e8);
+      }
+      for (const Vec3& p : mesh->positions()) compare(p);  // several faces are as near
+      compare(scale * Vec3(3, -2, 5));                     // the middle: all are
+      for (int i = 0; i < 9; ++i) compare(scale * Vec3(i, i, 7) / 8);
+    }
+  }
+}
+
+TEST(ClosestPoint, OfATreeIsCancelledAndRefusesWhatHasNone) {
+  const MeshPtr mesh = finish(sphere(4));
+  const auto cancelled =
+      ClosestPointTree::build(*mesh, [](std::string_view, double) { return false; });
+  ASSERT_FALSE(cancelled);
+  EXPECT_EQ(cancelled.error().code, ErrorCode::kCancelled);
+  const auto none = *TriangleMesh::build({Vec3(0, 0, 0), Vec3(1, 0, 0)}, {{0, 0, 1}});
+  const auto tree = ClosestPointTree::build(none, {});
+  ASSERT_TRUE(tree);
+  EXPECT_EQ(sentence(tree->to(Vec3::Zero()).error()),
+            sentence(closest_point(none, Vec3::Zero()).error()));
+  EXPECT_FALSE(tree->to(Vec3(0, std::numeric_limits<double>::quiet_NaN(), 0)));
 }
 
 TEST(ClosestPoint, RefusesWhatHasNone) {
