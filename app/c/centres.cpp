@@ -68,7 +68,7 @@ geotherm_status geotherm_centres(const geotherm_model* model, const geotherm_sou
     if (auto surface = app::refuse_space(held, "centres are"); !surface) return surface;
     const auto options = centre_options(kind, method);
     if (!options) return options.error();
-    const auto of = points_in_order(points, held, made.warnings);
+    const auto of = points_in_order(points, held, made.warnings, progress);
     if (!of) return of.error();
     std::vector<double> given;
     if (weights != nullptr) {
@@ -106,7 +106,7 @@ geotherm_status geotherm_relax(const geotherm_solver* solver, const geotherm_sou
   auto fill = [&](const Solver& held, const Progress& progress, Answer& made) -> Result<void> {
     const app::Model& model = held.model();
     if (auto surface = app::refuse_space(model, "samples are"); !surface) return surface;
-    const auto begin = points_in_order(points, model, made.warnings);
+    const auto begin = points_in_order(points, model, made.warnings, progress);
     if (!begin) return begin.error();
     if (steps < 0 || steps > std::numeric_limits<int>::max()) {
       return bad_argument("steps is " + std::to_string(steps), {"give 0 or more"});

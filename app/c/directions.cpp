@@ -20,7 +20,7 @@ Result<DirectedPoint> directed_point(const HeldModel& model, const geotherm_sour
                                      const char* what, std::vector<Warning>& warnings,
                                      const Progress& progress) {
   if (auto surface = app::refuse_space(model, what); !surface) return surface.error();
-  const auto points = points_in_order(point, model, warnings);
+  const auto points = points_in_order(point, model, warnings, progress);
   if (!points) return points.error();
   if (points->size() != 1) {
     return bad_argument("point has " + std::to_string(points->size()) + " points", {"give one"});
@@ -47,7 +47,7 @@ Result<SpreadOptions> spread_options(const geotherm_options* options) {
 Result<std::vector<SurfacePath>> curves_of(const geotherm_sources* sources, bool closed,
                                            const HeldModel& model, std::vector<Warning>& warnings,
                                            const Progress& progress) {
-  const auto sets = many_sets(sources, model);
+  const auto sets = many_sets(sources, model, progress);
   if (!sets) return sets.error();
   if (sources->text != nullptr && *sources->text != '\0') {
     return bad_argument("a signed distance takes the points of its curves, not sources as text",
@@ -63,7 +63,7 @@ Result<std::vector<SurfacePath>> curves_of(const geotherm_sources* sources, bool
   for (std::int64_t k = 0; k < sources->sets; ++k) {
     const std::int64_t from = sources->starts[k], count = sources->starts[k + 1] - from;
     const geotherm_sources stops = {sources->points + from, count, nullptr, 0, nullptr};
-    const auto points = points_in_order(&stops, model, warnings);
+    const auto points = points_in_order(&stops, model, warnings, progress);
     if (!points) return points.error();
     auto found = (*finder)->find(*points, {PathField::kGeodesic, closed, closed}, progress);
     if (!found) return found.error();

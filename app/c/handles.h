@@ -232,10 +232,12 @@ Result<void> write_row(const geotherm_array& array, std::int64_t row,
 
 // sources.cpp
 
-/// One set of all points and texts. Errors: kBadInput, with the number of the source.
-Result<app::ResolvedSources> one_set(const geotherm_sources* sources, const app::Model& model);
+/// One set of all points and texts. Errors: kBadInput, with the number of the source; kCancelled.
+Result<app::ResolvedSources> one_set(const geotherm_sources* sources, const app::Model& model,
+                                     const Progress& progress);
 /// A set for each range of `starts` or, without these, for each point; then those of the text.
-Result<app::EachSource> many_sets(const geotherm_sources* sources, const app::Model& model);
+Result<app::EachSource> many_sets(const geotherm_sources* sources, const app::Model& model,
+                                  const Progress& progress);
 
 // solvers.cpp
 
@@ -269,9 +271,10 @@ void keep(const Answer& answer, std::string name, auto values, std::int64_t colu
 /// The arrays of Answer::lines.
 void keep_lines(const Answer& answer);
 /// The points of all sources, in their order. Adds to `warnings` what there is to know of their
-/// places. Errors: kBadInput.
+/// places. Errors: kBadInput, kCancelled.
 Result<std::vector<SurfacePoint>> points_in_order(const geotherm_sources* sources,
                                                   const app::Model& model,
-                                                  std::vector<Warning>& warnings);
+                                                  std::vector<Warning>& warnings,
+                                                  const Progress& progress);
 
 }  // namespace geotherm::c

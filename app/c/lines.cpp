@@ -105,8 +105,9 @@ void keep_lines(const Answer& answer) {
 
 Result<std::vector<SurfacePoint>> points_in_order(const geotherm_sources* sources,
                                                   const Model& model,
-                                                  std::vector<Warning>& warnings) {
-  const auto each = many_sets(sources, model);
+                                                  std::vector<Warning>& warnings,
+                                                  const Progress& progress) {
+  const auto each = many_sets(sources, model, progress);
   if (!each) return each.error();
   warnings.insert(warnings.end(), each->warnings.begin(), each->warnings.end());
   std::vector<SurfacePoint> points;
@@ -142,7 +143,7 @@ geotherm_status geotherm_path(const geotherm_solver* solver, const geotherm_sour
     }
     const Model& model = held.model();
     if (auto surface = app::refuse_space(model, "paths are"); !surface) return surface;
-    const auto points = points_in_order(through, model, made.warnings);
+    const auto points = points_in_order(through, model, made.warnings, progress);
     if (!points) return points.error();
     auto lock = lock_of(held, progress);
     if (!lock) return lock.error();
@@ -173,9 +174,9 @@ geotherm_status geotherm_paths(const geotherm_solver* solver, const geotherm_sou
   auto fill = [&](const Solver& held, const Progress& progress, Answer& made) -> Result<void> {
     const Model& model = held.model();
     if (auto surface = app::refuse_space(model, "paths are"); !surface) return surface;
-    const auto begin = points_in_order(from, model, made.warnings);
+    const auto begin = points_in_order(from, model, made.warnings, progress);
     if (!begin) return begin.error();
-    const auto ends = points_in_order(to, model, made.warnings);
+    const auto ends = points_in_order(to, model, made.warnings, progress);
     if (!ends) return ends.error();
     if (begin->size() != 1 || ends->empty()) {
       return bad_argument("from has " + std::to_string(begin->size()) + " points, and to " +

@@ -265,9 +265,9 @@ geotherm_status geotherm_distance(const geotherm_solver* solver, const geotherm_
       row.rows = 1;
     }
     if (auto fits = check_output(row, 1, model.mesh->vertex_count(), "out"); !fits) return fits;
-    const auto placed = one_set(sources, model);
-    if (!placed) return placed.error();
     const Watched watched(watch);
+    const auto placed = one_set(sources, model, watched.progress());
+    if (!placed) return placed.error();
     const auto answer =
         (*object)->ready.method->solve(placed->set, {.quality = false}, watched.progress());
     if (!answer) return answer.error();
@@ -284,7 +284,8 @@ geotherm_status geotherm_distances(const geotherm_solver* solver, const geotherm
     const Model& model = (*object)->model();
     auto selection = Selection::build(*rows, model.mesh->vertex_count());
     if (!selection) return selection.error();
-    const auto each = many_sets(sources, model);
+    const Watched watched(watch);
+    const auto each = many_sets(sources, model, watched.progress());
     if (!each) return each.error();
     if (each->sets.empty()) return bad_argument("sources is empty", {"name at least one"});
     if (rows->path == nullptr && rows->array.data == nullptr) {
@@ -292,7 +293,6 @@ geotherm_status geotherm_distances(const geotherm_solver* solver, const geotherm
       rows->array.columns = selection->columns(model.mesh->vertex_count());
       return {};
     }
-    const Watched watched(watch);
     if (rows->path != nullptr) {
       return stream_to_file(**object, *each, *rows, *selection, watched.progress());
     }
@@ -306,7 +306,7 @@ geotherm_status geotherm_solve(const geotherm_solver* solver, const geotherm_sou
   auto fill = [&](const Solver& held, const Progress& progress, Answer& made) -> Result<void> {
     const auto asked = wanted_by(held, wanted == nullptr ? "" : wanted);
     if (!asked) return asked.error();
-    const auto placed = one_set(sources, held.model());
+    const auto placed = one_set(sources, held.model(), progress);
     if (!placed) return placed.error();
     const auto lock = lock_of(held, progress);
     if (!lock) return lock.error();

@@ -84,78 +84,79 @@ Result<std::vector<Source>> named_sources(const char* text) {
   return out;
 }
 
-/// Points whose places need no search: the methods themselves check them.
-bool is_ready(const geotherm_source& point) { return point.kind == GEOTHERM_VERTEX; }
-
-/// Adds the points from `from` to `to`.
-Result<void> add_points(const geotherm_sources& sources, std::int64_t from, std::int64_t to,
-                        const Model& model, app::SetUnion& all, std::vector<Warning>& warnings) {
-  for (std::int64_t i = from; i < to; ++i) {
-    const auto spec = spec_of(sources.points[i]);
+/// A set for each point, in their order. Places are searched for.
+Result<EachSource> sets_of_points(const geotherm_sources& sources, const Model& model,
+                                  const Progress& progress) {
+  std::vector<Source> points;
+  bool ready = !model.space;  // vertices of a mesh: the methods themselves check them
+  for (std::int64_t i = 0; i < sources.count; ++i) {
+    const geotherm_source& point = sources.points[i];
+    auto spec = spec_of(point);
     if (!spec) return about_source(i, spec.error());
-    const auto v = static_cast<Index>(sources.points[i].id);
-    const bool on_mesh = !model.space && is_ready(sources.points[i]);
-    if (on_mesh && v < model.mesh->vertex_count()) {
-      all.add(SurfacePoint::at_vertex(v), sources.points[i].offset);
-      continue;
-    }
-    const Source source{*spec, "source " + std::to_string(i)};
-    const auto placed = app::resolve_sources({&source, 1}, model);
-    if (!placed) return placed.error();
-    all.add(placed->set);
-    warnings.insert(warnings.end(), placed->warnings.begin(), placed->warnings.end());
+    ready = ready && point.kind == GEOTHERM_VERTEX && point.id < model.mesh->vertex_count();
+    points.push_back({*std::move(spec), "source " + std::to_string(i)});
   }
-  return {};
+  if (!ready) return app::resolve_each(points, model, progress);
+  EachSource out;
+  for (std::int64_t i = 0; i < sources.count; ++i) {
+    SourceSet& set = out.sets.emplace_back();
+    set.points = {SurfacePoint::at_vertex(static_cast<Index>(sources.points[i].id))};
+    set.offsets = {sources.points[i].offset};
+  }
+  return out;
 }
 
 }  // namespace
 
-Result<ResolvedSources> one_set(const geotherm_sources* sources, const Model& model) {
+Result<ResolvedSources> one_set(const geotherm_sources* sources, const Model& model,
+                                const Progress& progress) {
   if (auto there = check_pointers(sources); !there) return there.error();
-  app::SetUnion all;
-  ResolvedSources out;
-  if (auto added = add_points(*sources, 0, sources->count, model, all, out.warnings); !added) {
-    return added.error();
-  }
+  auto points = sets_of_points(*sources, model, progress);
+  if (!points) return points.error();
   const auto named = named_sources(sources->text);
   if (!named) return named.error();
-  if (!named->empty()) {
-    auto placed = app::resolve_sources(*named, model);
-    if (!placed) return placed.error();
-    all.add(placed->set);
-    out.warnings.insert(out.warnings.end(), placed->warnings.begin(), placed->warnings.end());
-  }
-  out.set = all.take();
+  auto placed = app::resolve_sources(*named, model, progress);
+  if (!placed) return placed.error();
+  app::SetUnion all;
+  for (const SourceSet& point : points->sets) all.add(point);
+  all.add(placed->set);
+  ResolvedSources out{all.take(), std::move(points->warnings)};
+  out.warnings.insert(out.warnings.end(), placed->warnings.begin(), placed->warnings.end());
   if (out.set.empty()) return bad_argument("sources is empty", {"name at least one"});
   return out;
 }
 
-Result<EachSource> many_sets(const geotherm_sources* sources, const Model& model) {
+Result<EachSource> many_sets(const geotherm_sources* sources, const Model& model,
+                             const Progress& progress) {
   if (auto there = check_pointers(sources); !there) return there.error();
-  const std::int64_t sets = sources->starts == nullptr ? sources->count : sources->sets;
+  const bool single = sources->starts == nullptr;
+  const std::int64_t sets = single ? sources->count : sources->sets;
+  if (sets == 0 && sources->count > 0) {
+    return bad_argument("sources.starts: none of 0 sets has the " +
+                        app::counted(sources->count, "point", "points"));
+  }
+  auto points = sets_of_points(*sources, model, progress);
+  if (!points) return points.error();
   EachSource out;
+  out.warnings = std::move(points->warnings);
   app::SetUnion one;
   for (std::int64_t k = 0; k < sets; ++k) {
-    const std::int64_t from = sources->starts == nullptr ? k : sources->starts[k];
-    const std::int64_t to = sources->starts == nullptr ? k + 1 : sources->starts[k + 1];
+    const std::int64_t from = single ? k : sources->starts[k];
+    const std::int64_t to = single ? k + 1 : sources->starts[k + 1];
     if (from < 0 || to <= from || to > sources->count) {
       return bad_argument("sources.starts: set " + std::to_string(k) + " has the points " +
                           std::to_string(from) + " to " + std::to_string(to) + " of " +
                           std::to_string(sources->count));
     }
-    if (auto added = add_points(*sources, from, to, model, one, out.warnings); !added) {
-      return added.error();
-    }
+    for (std::int64_t i = from; i < to; ++i) one.add(points->sets[static_cast<std::size_t>(i)]);
     out.sets.push_back(one.take());
   }
   const auto named = named_sources(sources->text);
   if (!named) return named.error();
-  if (!named->empty()) {
-    auto each = app::resolve_each(*named, model);
-    if (!each) return each.error();
-    for (SourceSet& set : each->sets) out.sets.push_back(std::move(set));
-    out.warnings.insert(out.warnings.end(), each->warnings.begin(), each->warnings.end());
-  }
+  auto each = app::resolve_each(*named, model, progress);
+  if (!each) return each.error();
+  for (SourceSet& set : each->sets) out.sets.push_back(std::move(set));
+  out.warnings.insert(out.warnings.end(), each->warnings.begin(), each->warnings.end());
   return out;
 }
 

@@ -13,6 +13,7 @@
 #include "app/text/text.h"
 #include "geotherm/mesh.h"
 #include "solver/geometry/clean_faces.h"
+#include "solver/mesh/closest_point_tree.h"
 #include "solver/mesh/connectivity.h"
 
 namespace geotherm::app {
@@ -20,6 +21,9 @@ namespace {
 
 /// A point farther from the surface than this share of the model's size is worth a word.
 constexpr double kFarAway = 0.01;
+
+/// Of so many places one asks the progress.
+constexpr std::size_t kAskEach = 16;
 
 /// splitmix64 (Steele, Lea, Flood 2014).
 class Random {
@@ -58,8 +62,8 @@ std::vector<char> usable_vertices(const SourceSpace& space) {
 
 class Resolver {
  public:
-  explicit Resolver(const SourceSpace& space)
-      : space_(space), mesh_(space.mesh), used_(usable_vertices(space)) {}
+  Resolver(const SourceSpace& space, const Progress& progress)
+      : space_(space), mesh_(space.mesh), progress_(progress), used_(usable_vertices(space)) {}
 
   Result<void> operator()(const VertexList& list) {
     for (const Index v : list.vertices) {
@@ -116,8 +120,9 @@ class Resolver {
   }
 
   Result<void> operator()(const SpacePoint& point) {
+    if (places_++ % kAskEach == 0 && !report(progress_, "sources", -1)) return cancelled_error();
     if (space_.space != nullptr) return add_in_space(point.position, point.offset);
-    const auto found = closest_point(mesh_, point.position);
+    const auto found = closest_to(point.position);
     if (!found) return found.error();
     note_distance("the closest point of the surface", found->distance);
     if (found->point.is_vertex()) return add_vertex(found->point.vertex, point.offset);
@@ -187,7 +192,7 @@ class Resolver {
   Result<void> add(const Source& source) {
     where_ = source.where;
     const auto placed = std::visit(*this, source.spec);
-    if (placed) return {};
+    if (placed || placed.error().code == ErrorCode::kCancelled) return placed;
     return about(where_, placed.error(), source.blame);
   }
 
@@ -195,6 +200,18 @@ class Resolver {
   ResolvedSources finish() { return {set_.take(), std::exchange(warnings_, {})}; }
 
  private:
+  /// The first place is looked for among all faces, further ones by a tree over them.
+  Result<ClosestPoint> closest_to(const Vec3& place) {
+    if (places_ == 1) return closest_point(mesh_, place);
+    if (!tree_) {
+      auto made = ClosestPointTree::build(
+          mesh_, [this](std::string_view, double) { return report(progress_, "sources", -1); });
+      if (!made) return made.error();
+      tree_ = *std::move(made);
+    }
+    return tree_->to(place);
+  }
+
   Result<void> add_in_space(const Vec3& position, double offset) {
     auto found = space_.space->closest_point(position);
     if (!found) return found.error();
@@ -278,7 +295,10 @@ class Resolver {
 
   const SourceSpace space_;
   const TriangleMesh& mesh_;
+  const Progress& progress_;
   std::vector<char> used_;
+  std::size_t places_ = 0;  ///< that were looked for
+  std::optional<ClosestPointTree> tree_;
   std::optional<CleanFaces> clean_;
   /// Whoever places sources keeps the mesh meanwhile.
   CurveJoiner own_joiner_{std::shared_ptr<const TriangleMesh>(std::shared_ptr<void>(), &mesh_)};
@@ -290,17 +310,21 @@ class Resolver {
 
 }  // namespace
 
-Result<ResolvedSources> resolve_sources(std::span<const Source> sources, const SourceSpace& space) {
-  Resolver resolver(space);
+Result<ResolvedSources> resolve_sources(std::span<const Source> sources, const SourceSpace& space,
+                                        const Progress& progress) {
+  if (sources.empty()) return ResolvedSources{};
+  Resolver resolver(space, progress);
   for (const Source& source : sources) {
     if (auto added = resolver.add(source); !added) return added.error();
   }
   return resolver.finish();
 }
 
-Result<EachSource> resolve_each(std::span<const Source> sources, const SourceSpace& space) {
-  Resolver resolver(space);
+Result<EachSource> resolve_each(std::span<const Source> sources, const SourceSpace& space,
+                                const Progress& progress) {
   EachSource each;
+  if (sources.empty()) return each;
+  Resolver resolver(space, progress);
   const auto place = [&](const Source& one) -> Result<void> {
     if (auto added = resolver.add(one); !added) return added;
     ResolvedSources placed = resolver.finish();

@@ -16,6 +16,7 @@
 #include "geotherm/error.h"
 #include "geotherm/mesh.h"
 #include "geotherm/options.h"
+#include "geotherm/progress.h"
 #include "geotherm/sources.h"
 #include "geotherm/types.h"
 
@@ -149,8 +150,9 @@ struct ResolvedSources {
 /// Places sources, all in one set. In a space the boundary are vertices, and a point in a face or
 /// at a place is the nearest point of the space. Errors: the blame of the source,
 /// its `where`, and what does not fit (a vertex or face out of range, a vertex in no face or
-/// cell, no boundary, a curve in a space that is no surface).
-Result<ResolvedSources> resolve_sources(std::span<const Source> sources, const SourceSpace& space);
+/// cell, no boundary, a curve in a space that is no surface); kCancelled.
+Result<ResolvedSources> resolve_sources(std::span<const Source> sources, const SourceSpace& space,
+                                        const Progress& progress = {});
 
 struct EachSource {
   std::vector<SourceSet> sets;
@@ -160,7 +162,8 @@ struct EachSource {
 /// Places sources on a mesh, every point of them in a set of its own, in their order: each vertex
 /// of a list, each random vertex, each point in a face or in space; what is named twice stands
 /// twice. A curve and the boundary are one set each. Errors: those of resolve_sources().
-Result<EachSource> resolve_each(std::span<const Source> sources, const SourceSpace& space);
+Result<EachSource> resolve_each(std::span<const Source> sources, const SourceSpace& space,
+                                const Progress& progress = {});
 
 /// `count` different numbers below `pool`; the same on every platform for a seed. Precondition:
 /// there are as many. Cost: O(count).

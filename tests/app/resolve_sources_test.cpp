@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <memory>
 #include <set>
 
@@ -85,6 +86,34 @@ TEST(Sources, InSpaceAreTheClosestPointsAndFarOnesAreMentioned) {
   EXPECT_EQ(vertices_of(far->set), std::vector<Index>{0});
   ASSERT_EQ(far->warnings.size(), 1U);
   EXPECT_NE(far->warnings[0].message.find("5 away"), std::string::npos) << far->warnings[0].message;
+}
+
+TEST(Sources, InSpaceAreTheSameTogetherAndOneByOne) {
+  const TriangleMesh mesh = *finish(torus(24, 12, 0.4));
+  std::vector<Source> sources;
+  for (int i = 0; i < 40; ++i) {
+    const Vec3 place(std::sin(3.0 * i), std::cos(5.0 * i), std::sin(7.0 * i));
+    sources.push_back({SpacePoint{place}, "place", ErrorCode::kBadInput});
+  }
+  const auto together = resolve_each(sources, mesh);
+  ASSERT_TRUE(together);
+  for (std::size_t i = 0; i < sources.size(); ++i) {
+    EXPECT_EQ(together->sets[i], resolve_sources({&sources[i], 1}, mesh)->set) << i;
+  }
+}
+
+TEST(Sources, InSpaceAreCancelledByTheirProgress) {
+  const Source place{SpacePoint{Vec3(1, 1, 1)}, "place", ErrorCode::kBadFile};
+  const Progress stop = [](std::string_view, double) { return false; };
+  const auto one = resolve_sources({&place, 1}, grid(), stop);
+  ASSERT_FALSE(one);
+  EXPECT_EQ(one.error().code, ErrorCode::kCancelled);
+  const std::vector<Source> many(3, place);
+  int asked = 0;  // the tree over many faces asks, too
+  const auto later = resolve_each(many, *finish(sphere(4)),
+                                  [&](std::string_view, double) { return ++asked == 1; });
+  ASSERT_FALSE(later);
+  EXPECT_EQ(later.error().code, ErrorCode::kCancelled);
 }
 
 TEST(Sources, AlongACurveAreItsEdges) {

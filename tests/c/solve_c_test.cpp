@@ -94,6 +94,19 @@ TEST_F(CSolve, RowsAreThoseOfEachSourceInMemoryAndInAFile) {
   std::filesystem::remove(path);
 }
 
+TEST_F(CSolve, PointsInNoneOfNoSetsAreRefused) {
+  const geotherm_source point = {GEOTHERM_VERTEX, 17, {}, 0};
+  const std::int64_t starts[] = {0};
+  const geotherm_sources sources = {&point, 1, starts, 0, "3"};
+  geotherm_rows rows = {{nullptr, GEOTHERM_FLOAT64, 0, 0, 0, 0}, nullptr, nullptr, 0, kInfinity};
+  EXPECT_EQ(geotherm_distances(solver, &sources, &rows, nullptr), GEOTHERM_BAD_INPUT);
+  const char* message = nullptr;
+  geotherm_last_error(&message, nullptr);
+  EXPECT_NE(std::string(message).find("sources.starts: none of 0 sets has the 1 point"),
+            std::string::npos)
+      << message;
+}
+
 TEST_F(CSolve, TargetsAndTheLargestDistanceCutRows) {
   const geotherm_source at = {GEOTHERM_VERTEX, 17, {}, 0};
   const geotherm_sources sources = {&at, 1, nullptr, 0, nullptr};

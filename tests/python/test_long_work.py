@@ -39,6 +39,18 @@ def test_what_a_progress_raises_comes_out(bunny, solver):
     assert solver.distance(17)[17] == 0
 
 
+def test_what_places_cost_is_watched_too(solver):
+    told = []
+    places = np.random.default_rng(1).random((50, 3))
+    rows = solver.distances(places, progress=lambda stage, share: told.append(stage))
+    assert told[0] == "sources"
+    for row, place in zip(rows, places):
+        assert np.allclose(row, solver.distance(place), rtol=0, atol=1e-12)
+    with pytest.raises(geotherm.Error) as caught:
+        solver.distance(places, progress=lambda stage, share: False)
+    assert caught.value.code == "cancelled"
+
+
 def test_true_is_a_bar(bunny, capsys):
     geotherm.Solver(bunny, progress=True)
     assert capsys.readouterr().err

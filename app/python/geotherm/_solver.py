@@ -152,7 +152,14 @@ class Solver:
         else:
             count = taken.set_count
             if taken.has_text:  # what rows it stands for the library knows
-                call("distances", self._handle.value, taken.pointer, ctypes.byref(rows), None)
+                with Watch() as watch:
+                    call(
+                        "distances",
+                        self._handle.value,
+                        taken.pointer,
+                        ctypes.byref(rows),
+                        watch.pointer,
+                    )
                 count = rows.array.rows
             array = output(out, (count, columns), dtype)
             rows.array = described(array)
