@@ -60,12 +60,15 @@ Result<std::vector<SurfacePath>> curves_of(const geotherm_sources* sources, bool
   const auto finder = model.curve_finder(part_of(progress, 0.0, 0.3));
   if (!finder) return finder.error();
   std::vector<SurfacePath> curves;
+  const auto count_of_sets = static_cast<double>(sources->sets);
   for (std::int64_t k = 0; k < sources->sets; ++k) {
+    const double done = static_cast<double>(k) / count_of_sets;
+    const Progress part = part_of(part_of(progress, 0.3, 1.0), done, done + 1 / count_of_sets);
     const std::int64_t from = sources->starts[k], count = sources->starts[k + 1] - from;
     const geotherm_sources stops = {sources->points + from, count, nullptr, 0, nullptr};
     const auto points = points_in_order(&stops, model, warnings, progress);
     if (!points) return points.error();
-    auto found = (*finder)->find(*points, {PathField::kGeodesic, closed, closed}, progress);
+    auto found = (*finder)->find(*points, {PathField::kGeodesic, closed, closed}, part);
     if (!found) return found.error();
     curves.push_back(std::move(found->path));
   }
@@ -194,9 +197,11 @@ geotherm_status geotherm_trace(const geotherm_model* model, const geotherm_sourc
                                double direction, double length, const geotherm_watch* watch,
                                geotherm_answer** line) {
   auto fill = [&](const HeldModel& held, const Progress& progress, Answer& made) -> Result<void> {
-    const auto from = directed_point(held, point, "straightest lines are", made.warnings, progress);
+    const auto from = directed_point(held, point, "straightest lines are", made.warnings,
+                                     part_of(progress, 0.0, 0.5));
     if (!from) return from.error();
-    auto found = from->directions->trace(from->point, direction, length);
+    auto found =
+        from->directions->trace(from->point, direction, length, part_of(progress, 0.5, 1.0));
     if (!found) return found.error();
     made.texts = {{"end", to_text(found->end)}};
     made.lines = Lines{held.mesh, {{0, std::move(found->path)}}, false};

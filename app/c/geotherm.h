@@ -102,7 +102,8 @@ typedef struct geotherm_options geotherm_options;
 
 /* Every option of the command line that is about models, methods and checks, by its name there
  * without dashes ("method", "time-factor", "threads", "weld", "check"), as text ("2"). Errors of
- * set: NOT_AVAILABLE (no such name, with those there are), BAD_INPUT (the value). */
+ * set: NOT_AVAILABLE (no such name; a value that should be one of several names, such as a backend,
+ * and is none: with those there are), BAD_INPUT (another value). */
 GEOTHERM_API geotherm_status geotherm_options_new(geotherm_options** options);
 GEOTHERM_API geotherm_status geotherm_options_set(geotherm_options* options, const char* name,
                                                   const char* value);
@@ -168,8 +169,9 @@ GEOTHERM_API geotherm_status geotherm_solver_new(const geotherm_model* model,
                                                  const geotherm_watch* watch,
                                                  geotherm_solver** solver);
 
-/* The same faces and options with the vertices elsewhere (V x 3): half of the cost of a new one.
- * The earlier solver stays as it is. `model`, where it is not NULL, is what it is on. */
+/* The same faces and options with the vertices elsewhere (V x 3): by heat without refinement half
+ * of the cost of a new one. The earlier solver stays as it is. `model`, where it is not NULL, is
+ * what it is on. */
 GEOTHERM_API geotherm_status geotherm_solver_move(const geotherm_solver* solver,
                                                   const geotherm_array* positions,
                                                   const geotherm_watch* watch,
@@ -260,10 +262,12 @@ GEOTHERM_API geotherm_status geotherm_paths(const geotherm_solver* solver,
                                             const geotherm_sources* to, const geotherm_watch* watch,
                                             geotherm_answer** lines);
 
-/* The level sets of the function that is linear on each face. values: V; levels: ascending. */
+/* The level sets of the function that is linear on each face. values: V; levels: ascending. Errors:
+ * BAD_INPUT, too, on a surface of edge lengths, whose vertices have no places. */
 GEOTHERM_API geotherm_status geotherm_isolines(const geotherm_model* model,
                                                const geotherm_array* values,
                                                const geotherm_array* levels,
+                                               const geotherm_watch* watch,
                                                geotherm_answer** lines);
 
 /* Farthest-point samples. `first`: a vertex, or -1. Cost: a query for each. */

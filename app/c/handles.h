@@ -257,6 +257,11 @@ class SolverLock {
 /// progress of the call that has it), kCancelled, also while it waits.
 Result<SolverLock> lock_of(const Solver& solver, const Progress& progress);
 
+// views.cpp
+
+/// Errors: kBadInput, with the cure, where vertices lie nowhere.
+Result<void> require_places(const app::Model& model, Hint cure = {});
+
 // lines.cpp
 
 /// Adds sentences to what there is to know of an answer.

@@ -206,10 +206,12 @@ geotherm_status geotherm_paths(const geotherm_solver* solver, const geotherm_sou
 }
 
 geotherm_status geotherm_isolines(const geotherm_model* model, const geotherm_array* values,
-                                  const geotherm_array* levels, geotherm_answer** lines) {
-  auto fill = [&](const HeldModel& held, const Progress&, Answer& made) -> Result<void> {
+                                  const geotherm_array* levels, const geotherm_watch* watch,
+                                  geotherm_answer** lines) {
+  auto fill = [&](const HeldModel& held, const Progress& progress, Answer& made) -> Result<void> {
     if (auto there = require(values, "values"); !there) return there;
     if (auto there = require(levels, "levels"); !there) return there;
+    if (auto there = require_places(held); !there) return there;
     const TriangleMesh& mesh = *held.mesh;
     const auto at_vertices = numbers_in(*values, 1, "values");
     if (!at_vertices) return at_vertices.error();
@@ -227,13 +229,13 @@ geotherm_status geotherm_isolines(const geotherm_model* model, const geotherm_ar
                               (i == 0 ? "" : ", after " + number_text((*asked)[i - 1])),
                           {"give finite numbers that ascend"});
     }
-    auto found = find_isolines(mesh, *at_vertices, *asked);
+    auto found = find_isolines(mesh, *at_vertices, *asked, progress);
     if (!found) return found.error();
     made.lines = Lines{held.mesh, *std::move(found), true};
     keep_lines(made);
     return {};
   };
-  return answering<const HeldModel>(model, "model", lines, "lines", nullptr, fill);
+  return answering<const HeldModel>(model, "model", lines, "lines", watch, fill);
 }
 
 geotherm_status geotherm_samples(const geotherm_solver* solver, int64_t count, int64_t first,

@@ -156,6 +156,11 @@ Result<Model> build_points(const geotherm_shape& shape, const Progress& progress
   if (!positions) return positions.error();
   auto normals = places_in(shape.values, "normals");
   if (!normals) return normals.error();
+  for (std::size_t i = 0; i < normals->size(); ++i) {
+    if ((*normals)[i].allFinite()) continue;
+    return bad_argument("normals: that of point " + std::to_string(i) + " is not finite",
+                        {"give 0, 0, 0 where none is known"});
+  }
   const auto points = PointCloud::build(*std::move(positions), *std::move(normals));
   if (!points) return points.error();
   return app::model_of(*points, progress);

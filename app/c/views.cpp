@@ -161,15 +161,10 @@ Result<std::string> text_in(const Answer& answer, const std::string& name) {
   return no_name("text", name, {"json", "table"});
 }
 
-/// Errors (kBadInput): a surface of edge lengths, in a file with places of vertices.
-Result<void> has_places(const Model& model) {
-  if (!model.space || model.space->has_places()) return {};
-  return bad_argument(model.name + " is a surface of edge lengths, whose vertices have no places",
-                      {"write distances as .npy or .csv"});
-}
+constexpr const char* kAsNumbers = "write distances as .npy or .csv";
 
 Result<void> write(const Model& model, const std::string& path) {
-  if (auto there = has_places(model); !there) return there;
+  if (auto there = require_places(model, {kAsNumbers}); !there) return there;
   const auto tets = app::tets_of(model);
   if (tets && check_tets_path(path)) return write_tets(path, *tets);
   return write_mesh(path, *model.mesh);
@@ -188,7 +183,7 @@ Result<void> write(const Answer& answer, const std::string& path) {
   const app::Answer& solved = *answer.solved;
   if (auto fits = app::check_answer_path(solved.model, path); !fits) return fits;
   if (app::holds_mesh(path)) {
-    if (auto there = has_places(solved.model); !there) return there;
+    if (auto there = require_places(solved.model, {kAsNumbers}); !there) return there;
   }
   return app::write_answer(path, solved.model, solved.result.distances,
                            solved.result.nearest_source, {});
@@ -205,6 +200,12 @@ Result<Object> any_object(const void* handle) {
 Error no_such_kind(const char* what) { return bad_argument(std::string("handle has no ") + what); }
 
 }  // namespace
+
+Result<void> require_places(const Model& model, Hint cure) {
+  if (!model.space || model.space->has_places()) return {};
+  return bad_argument(model.name + " is a surface of edge lengths, whose vertices have no places",
+                      std::move(cure));
+}
 }  // namespace geotherm::c
 
 using namespace geotherm;     // NOLINT: the functions below are C

@@ -74,6 +74,13 @@ void describe_space(const Model& model, MeshSummary& mesh) {
   if (!model.space) return;
   mesh.unreferenced_vertices = model.space->unused_vertices();
   mesh.components = model.space->components();
+  if (model.space->has_places()) return;
+  // Its triangles have areas; vertices at one place have not.
+  mesh.degenerate_faces = 0;
+  mesh.mean_edge_length = kUnreached;
+  for (const SpaceFigure& figure : model.space->figures()) {
+    if (figure.key == "area") mesh.area = std::get<double>(figure.value);
+  }
 }
 
 void describe_space(const Model& model, MeshReport& mesh) {

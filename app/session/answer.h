@@ -59,7 +59,8 @@ Result<void> write_answer(const std::string& path, const Model& model,
 /// The answer as the library checks it; valid as long as the answer.
 CheckedAnswers checked_answers(const Answer& answer);
 
-/// Puts the space's own vertices and components in place of those of what is drawn of it.
+/// Puts the space's own vertices and components in place of those of what is drawn of it; where its
+/// vertices have no places, also its area, and no length of edges.
 void describe_space(const Model& model, MeshSummary& mesh);
 /// And its box.
 void describe_space(const Model& model, MeshReport& mesh);

@@ -58,8 +58,14 @@ class Tracer {
   double direction() const { return std::atan2(direction_.y(), direction_.x()); }
   Index face() const { return face_; }
 
-  Result<TracedLine> run() {
+  Result<TracedLine> run(const Progress& progress) {
+    constexpr std::size_t kAskEvery = 1U << 12;
+    const double whole = rest_;
     while (going_) {
+      if (line_.path.faces.size() % kAskEvery == kAskEvery - 1 &&
+          !report(progress, "straightest line", 1 - rest_ / whole)) {
+        return cancelled_error();
+      }
       if (line_.path.faces.size() >= kMaxTracedPieces) {
         return Error{ErrorCode::kBudgetEnded,
                      "the line has " + std::to_string(kMaxTracedPieces) + " pieces and " +
@@ -211,8 +217,8 @@ class Tracer {
 
 }  // namespace
 
-Result<TracedLine> Directions::trace(const SurfacePoint& point, double direction,
-                                     double length) const {
+Result<TracedLine> Directions::trace(const SurfacePoint& point, double direction, double length,
+                                     const Progress& progress) const {
   if (!std::isfinite(direction) || !std::isfinite(length) || length < 0) {
     return Error{ErrorCode::kBadInput,
                  "a line in direction " + number_text(direction) + " of length " +
@@ -237,7 +243,7 @@ Result<TracedLine> Directions::trace(const SurfacePoint& point, double direction
                    {"choose one from 0 to " + number_text(vertex.angle)}};
     }
   }
-  auto line = tracer.run();
+  auto line = tracer.run(progress);
   if (!line) return line;
   if (line->end == TraceEnd::kLength) line->path.length = length;  // not what its pieces add up to
   if (line->path.points.back().is_vertex()) {

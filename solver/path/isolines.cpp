@@ -31,7 +31,27 @@ class LevelSets {
       for (const Side side : clean_.edges.sides(e)) edge_at_[side] = e;
     }
     at_edge_.assign(static_cast<std::size_t>(clean_.edges.edge_count()), {kNoPiece, kNoPiece});
-    collect();
+  }
+
+  /// All crossings, before trace(). False: the progress said stop.
+  bool collect(const Progress& progress) {
+    constexpr std::size_t kAskEvery = 1U << 10;  // faces, each of which all levels may cross
+    first_.assign(levels_.size() + 1, 0);
+    for (const Face& face : clean_.faces) {
+      const auto [low, high] = levels_of(face);
+      for (std::size_t level = low; level < high; ++level) ++first_[level + 1];
+    }
+    for (std::size_t level = 0; level < levels_.size(); ++level) first_[level + 1] += first_[level];
+    crossings_.resize(first_.back());
+    std::vector<std::size_t> cursor(first_.begin(), first_.end() - 1);
+    for (std::size_t f = 0; f < clean_.faces.size(); ++f) {
+      if (f % kAskEvery == 0 && !report(progress, "isolines", 0)) return false;
+      const auto [low, high] = levels_of(clean_.faces[f]);
+      for (std::size_t level = low; level < high; ++level) {
+        crossings_[cursor[level]++] = crossing(static_cast<Index>(f), levels_[level]);
+      }
+    }
+    return true;
   }
 
   /// Lines of one level.
@@ -71,23 +91,6 @@ class LevelSets {
       return static_cast<std::size_t>(std::ranges::upper_bound(levels_, value) - levels_.begin());
     };
     return {number(low), number(high)};
-  }
-
-  void collect() {
-    first_.assign(levels_.size() + 1, 0);
-    for (const Face& face : clean_.faces) {
-      const auto [low, high] = levels_of(face);
-      for (std::size_t level = low; level < high; ++level) ++first_[level + 1];
-    }
-    for (std::size_t level = 0; level < levels_.size(); ++level) first_[level + 1] += first_[level];
-    crossings_.resize(first_.back());
-    std::vector<std::size_t> cursor(first_.begin(), first_.end() - 1);
-    for (std::size_t f = 0; f < clean_.faces.size(); ++f) {
-      const auto [low, high] = levels_of(clean_.faces[f]);
-      for (std::size_t level = low; level < high; ++level) {
-        crossings_[cursor[level]++] = crossing(static_cast<Index>(f), levels_[level]);
-      }
-    }
   }
 
   /// Values equal to the level count as above it.
@@ -168,13 +171,19 @@ class LevelSets {
   std::vector<char> used_;
 };
 
-std::vector<Isoline> all_isolines(const TriangleMesh& mesh, std::span<const double> values,
-                                  std::span<const double> levels) {
+Result<std::vector<Isoline>> all_isolines(const TriangleMesh& mesh, std::span<const double> values,
+                                          std::span<const double> levels,
+                                          const Progress& progress) {
   assert(values.size() == static_cast<std::size_t>(mesh.vertex_count()));
   assert(std::ranges::is_sorted(levels));
   std::vector<Isoline> lines;
   LevelSets sets(mesh, values, levels);
-  for (std::size_t level = 0; level < levels.size(); ++level) sets.trace(level, lines);
+  if (!sets.collect(progress)) return cancelled_error();
+  for (std::size_t level = 0; level < levels.size(); ++level) {
+    const double done = static_cast<double>(level) / static_cast<double>(levels.size());
+    if (!report(progress, "isolines", done)) return cancelled_error();
+    sets.trace(level, lines);
+  }
   std::ranges::stable_sort(lines, [](const Isoline& a, const Isoline& b) {
     return std::tuple(a.value, -a.path.length) < std::tuple(b.value, -b.path.length);
   });
@@ -184,10 +193,12 @@ std::vector<Isoline> all_isolines(const TriangleMesh& mesh, std::span<const doub
 }  // namespace
 
 Result<std::vector<Isoline>> find_isolines(const TriangleMesh& mesh, std::span<const double> values,
-                                           std::span<const double> levels) {
-  return within_memory("a level set", mesh, [&]() -> Result<std::vector<Isoline>> {
-    return all_isolines(mesh, values, levels);
-  });
+                                           std::span<const double> levels,
+                                           const Progress& progress) {
+  return within_memory("a level set", mesh, progress,
+                       [&](const Progress& watched) -> Result<std::vector<Isoline>> {
+                         return all_isolines(mesh, values, levels, watched);
+                       });
 }
 
 }  // namespace geotherm

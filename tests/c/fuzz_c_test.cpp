@@ -226,7 +226,7 @@ TEST(CFuzz, NoCallIsMoreThanAnErrorWhateverItIsGiven) {
                                any.text(), any.coin() ? 1 : 0, nullptr, &answer);
         break;
       case 9:
-        status = geotherm_isolines(any.handle<geotherm_model>(), &array, &other, &answer);
+        status = geotherm_isolines(any.handle<geotherm_model>(), &array, &other, nullptr, &answer);
         break;
       case 10:
         status = geotherm_samples(any.handle<geotherm_solver>(), any.size(), any.size(), nullptr,

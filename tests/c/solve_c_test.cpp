@@ -241,7 +241,7 @@ TEST_F(CSolve, PathsIsolinesAndSamplesAreArrays) {
   std::vector<double> levels = {0.2, 0.4};
   const geotherm_array values = array_of<double, GEOTHERM_FLOAT64>(d);
   const geotherm_array at = array_of<double, GEOTHERM_FLOAT64>(levels);
-  ASSERT_EQ(geotherm_isolines(model, &values, &at, &lines), GEOTHERM_OK);
+  ASSERT_EQ(geotherm_isolines(model, &values, &at, nullptr, &lines), GEOTHERM_OK);
   ASSERT_EQ(geotherm_array_of(lines, "starts", &starts), GEOTHERM_OK);
   EXPECT_GE(starts.rows, 3);
 

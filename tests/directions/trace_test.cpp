@@ -221,6 +221,19 @@ TEST(Traced, LineThatLeavesTheSurfaceAtTheBorderIsRefused) {
   EXPECT_FALSE(directions->trace(SurfacePoint::at_vertex(99), 1, 1));
 }
 
+TEST(Traced, LineIsCancelledOnItsWay) {
+  const auto directions = directions_on(finish(sphere(2)));
+  const SurfacePoint from = SurfacePoint::at_vertex(2);
+  double seen = -1;
+  const auto stop = [&](std::string_view, double share) { return (seen = share, false); };
+  EXPECT_TRUE(directions->trace(from, 0.3, 3, stop)) << "a short line asks nobody";
+  const auto line = directions->trace(from, 0.3, 3000, stop);
+  ASSERT_FALSE(line);
+  EXPECT_EQ(line.error().code, ErrorCode::kCancelled);
+  EXPECT_GT(seen, 0);
+  EXPECT_LT(seen, 1);
+}
+
 class TracedOnBroken : public testing::TestWithParam<unsigned> {};
 
 TEST_P(TracedOnBroken, MeshesIsFiniteOrOneSentence) {

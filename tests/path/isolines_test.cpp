@@ -43,6 +43,19 @@ TEST(Isolines, OfAPlanesCoordinateGoStraightFromBorderToBorder) {
   }
 }
 
+TEST(Isolines, AreCancelledByTheirProgressBetweenLevels) {
+  const MeshPtr mesh = finish(sphere(3));
+  const double levels[] = {-0.5, 0, 0.5};
+  for (const int most : {0, 2, 3}) {
+    int asked = 0;
+    const auto stop = [&](std::string_view, double) { return asked++ < most; };
+    const auto lines = find_isolines(*mesh, heights(*mesh), levels, stop);
+    ASSERT_FALSE(lines) << most;
+    EXPECT_EQ(lines.error().code, ErrorCode::kCancelled);
+    EXPECT_EQ(asked, most + 1);
+  }
+}
+
 TEST(Isolines, OfASpheresHeightAreClosedCirclesOfTheirLength) {
   const MeshPtr mesh = finish(sphere(4));
   const double levels[] = {-0.6, 0.1, 0.8};

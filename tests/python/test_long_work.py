@@ -51,6 +51,30 @@ def test_what_places_cost_is_watched_too(solver):
     assert caught.value.code == "cancelled"
 
 
+def test_long_lines_and_many_isolines_are_cancelled(bunny, solver):
+    geotherm.trace(bunny, 17, 0.0, 1.0)  # what is made once is made
+    for ask in (
+        lambda progress: geotherm.trace(bunny, 17, 0.0, 3000.0, progress=progress),
+        lambda progress: geotherm.isolines(bunny, bunny.vertices[:, 1], count=500, progress=progress),
+    ):
+        told = []
+        ask(lambda stage, share: told.append(share))
+        assert len(told) > 3 and told == sorted(told) and 0.9 < told[-1] <= 1
+        with pytest.raises(geotherm.Error) as caught:
+            ask(lambda stage, share: False)
+        assert caught.value.code == "cancelled"
+
+
+def test_a_signed_distance_of_many_curves_never_goes_back(bunny):
+    shares = []
+    corners = [[17, 99, 300], [900, 1000, 1100], [1500, 1600, 1700]]
+    geotherm.signed_distance(
+        bunny, corners, rule="heat", progress=lambda stage, share: shares.append(share)
+    )
+    shares = [share for share in shares if share >= 0]
+    assert shares == sorted(shares)
+
+
 def test_true_is_a_bar(bunny, capsys):
     geotherm.Solver(bunny, progress=True)
     assert capsys.readouterr().err

@@ -13,7 +13,17 @@ from typing import TYPE_CHECKING, Any, overload
 import numpy as np
 
 from geotherm._arrays import AnyArray, given, number_in, view, whole_in
-from geotherm._library import Error, Handle, InputError, call, create, path_bytes, text_bytes
+from geotherm._library import (
+    Error,
+    Handle,
+    InputError,
+    Progress,
+    Watch,
+    call,
+    create,
+    path_bytes,
+    text_bytes,
+)
 from geotherm._models import Model, handle_of
 
 if TYPE_CHECKING:
@@ -57,7 +67,9 @@ class Result:
 
     @property
     def nearest(self) -> AnyArray:
-        """(V,) int32: the number of the nearest source, -1 where there is none; with labels."""
+        """(V,) int32: the number of the nearest source, -1 where there is none; with labels. That of
+        number i is report["regions"][i]["source"]: what coincides is one, and points come before
+        sources as text."""
         return self._array("nearest_source")
 
     @property
@@ -269,6 +281,7 @@ def isolines(
     spacing: float | None = None,
     count: int | None = None,
     levels: Any = None,
+    progress: Progress = None,
 ) -> Lines:
     """The lines on which values, linear on each face, have a level. Sorted by level, the longest
     first.
@@ -303,8 +316,12 @@ def isolines(
     elif count is not None:
         if not 1 <= whole_in(count, "count") <= 1e5:
             raise InputError(f"count is {count}", hint="give 1 to 100,000")
-        levels = least + (largest - least) * (np.arange(1, count + 1) / (count + 1))
+        share = np.arange(1, count + 1) / (count + 1)
+        levels = least * (1 - share) + largest * share
     asked, kept_levels = given(levels, "levels", 1)
-    handle = create("isolines", handle_of(model), ctypes.byref(array), ctypes.byref(asked))
+    with Watch(progress) as watch:
+        handle = create(
+            "isolines", handle_of(model), ctypes.byref(array), ctypes.byref(asked), watch.pointer
+        )
     del kept_levels
     return Lines(handle, values=True)

@@ -139,7 +139,7 @@ _SIGNATURES: dict[str, tuple[Any, ...]] = {
     "distances": (c_void_p, POINTER(Sources), POINTER(Rows), c_void_p),
     "solve": (c_void_p, POINTER(Sources), c_char_p, c_void_p, _Handles),
     "path": (c_void_p, POINTER(Sources), c_char_p, c_int, c_void_p, _Handles),
-    "isolines": (c_void_p, POINTER(Array), POINTER(Array), _Handles),
+    "isolines": (c_void_p, POINTER(Array), POINTER(Array), c_void_p, _Handles),
     "samples": (c_void_p, c_int64, c_int64, c_void_p, _Handles),
     "log_map": (c_void_p, POINTER(Sources), c_char_p, c_double, c_void_p, _Handles),
     "centres": (

@@ -126,8 +126,9 @@ class Directions {
   /// edges, and with the same angle on both sides at vertices. `length` in model units. It may pass
   /// a seam where orientations disagree. Errors: those of frame_at(), kBadInput (a direction or
   /// length that is not finite, a negative length, at the boundary a direction that leaves the
-  /// surface), kBudgetEnded (ten million pieces). Cost: O(pieces).
-  Result<TracedLine> trace(const SurfacePoint& point, double direction, double length) const;
+  /// surface), kBudgetEnded (ten million pieces), kCancelled. Cost: O(pieces).
+  Result<TracedLine> trace(const SurfacePoint& point, double direction, double length,
+                           const Progress& progress = {}) const;
 
   /// Signed distance to directed curves that separate the surface, each piece of which lies in one
   /// face (PathFinder finds such): exact on the faces, by windows. Errors: kBadInput (no curve, a

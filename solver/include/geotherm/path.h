@@ -11,6 +11,7 @@
 #include "geotherm/distance_method.h"
 #include "geotherm/mesh.h"
 #include "geotherm/names.h"
+#include "geotherm/progress.h"
 
 // Lines on the surface: the shortest paths, isolines (level sets of distances, or of any values at
 // the vertices), and files of them.
@@ -150,8 +151,9 @@ struct Isoline {
 /// Level sets of the function that is linear on each face. `values`: V, file order; faces with a
 /// value that is not finite have none. `levels`: ascending. Sorted by level, the longest first. The
 /// lines of a value that vertices have pass through these; no piece has length 0.
-/// Errors: kOutOfMemory. Cost: O(F log levels + pieces).
+/// Errors: kOutOfMemory, kCancelled. Cost: O(F log levels + pieces).
 Result<std::vector<Isoline>> find_isolines(const TriangleMesh& mesh, std::span<const double> values,
-                                           std::span<const double> levels);
+                                           std::span<const double> levels,
+                                           const Progress& progress = {});
 
 }  // namespace geotherm
