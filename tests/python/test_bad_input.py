@@ -134,6 +134,8 @@ def test_wrong_arguments_of_the_others_are_named(bunny, solver):
         (lambda: geotherm.isolines(bunny, d, levels=[2, 1]), "levels"),
         (lambda: geotherm.isolines(bunny, d, levels=[NAN]), "levels"),
         (lambda: geotherm.isolines(bunny, d), "levels"),
+        (lambda: solver.solve(17, check="off labels"), "check is 'off labels'"),
+        (lambda: solver.distances(np.array([[0, 0, 0], [1, 1, 1]])), r"shape \(2, 3\)"),
         (lambda: geotherm.isolines(bunny, d, spacing=0), "spacing"),
         (lambda: solver.path(17), "point"),
         (lambda: solver.path(17, 99999), "99999"),

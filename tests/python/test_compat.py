@@ -70,6 +70,8 @@ def test_straightest_lines(arrays, bunny):
     assert begin @ flat > 0.9 * np.linalg.norm(begin) * np.linalg.norm(flat)
     from_face = tracer.trace_geodesic_from_face(31, np.array((0.1, 0.4, 0.5)), direction)
     assert from_face[0] == pytest.approx([0.1, 0.4, 0.5] @ V[F[31]])
+    with pytest.raises(geotherm.InputError, match="along the normal at the start"):
+        tracer.trace_geodesic_from_vertex(22, 3 * normal)
     few = tracer.trace_geodesic_from_face(31, [0.1, 0.4, 0.5], direction, max_iterations=3)
     assert np.array_equal(few, from_face[:4])
 

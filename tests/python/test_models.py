@@ -104,6 +104,11 @@ def test_edge_lengths(bunny, tmp_path):
     for has_no_places in (solver.model, solver.solve(17)):
         with pytest.raises(geotherm.InputError, match="no places"):
             has_no_places.write(tmp_path / "x.ply")
+    with pytest.raises(geotherm.InputError, match="no places"):
+        geotherm.isolines(solver.model, solver.distance(17), count=3)
+    said = solver.solve(17).report["model"]
+    assert said["area"] == pytest.approx(solver.model.info()["model"]["area"])
+    assert said["mean_edge_length"] is None and said["degenerate_faces"] == 0
     solver.solve(17).write(tmp_path / "x.npy")
     assert "where another one lies" not in solver.model.report()
     assert "box" not in solver.model.report()
@@ -138,6 +143,24 @@ def test_a_moved_model_is_pickled_as_what_it_was(bunny):
     assert np.array_equal(again.faces, moved.faces)
 
 
+def test_a_model_of_a_file_is_read_again_from_another_folder(program, tmp_path, monkeypatch):
+    program("generate", "ball-tets", "--tets", "500", "-o", tmp_path / "ball.mesh")
+    monkeypatch.chdir(tmp_path)
+    kept = pickle.dumps(geotherm.read("ball.mesh"))
+    welded = pickle.dumps(geotherm.read("bunny", weld=0))
+    (tmp_path / "other").mkdir()
+    monkeypatch.chdir(tmp_path / "other")
+    assert isinstance(pickle.loads(kept), geotherm.TetMesh)
+    assert pickle.loads(welded).n_vertices == 2000
+
+
+def test_normals_that_are_no_numbers_are_refused(bunny):
+    normals = np.ones((2000, 3))
+    normals[7, 1] = np.nan
+    with pytest.raises(geotherm.InputError, match="normals: that of point 7"):
+        geotherm.PointCloud(bunny.vertices, normals)
+
+
 def test_models_of_other_packages_by_their_shape():
     V, F, _ = grid_of(5)
     vtk = np.column_stack([np.full(len(F), 3), F]).ravel()
@@ -157,6 +180,14 @@ def test_models_of_other_packages_by_their_shape():
     mixed = SimpleNamespace(points=V, cells=[block, SimpleNamespace(type="quad", data=[[0, 1, 2, 3]])])
     with pytest.raises(geotherm.InputError, match="1 of the kind quad"):
         geotherm.Mesh(mixed)
+    for kind, code in (("wedge", 13), ("hexahedron", 12), ("pyramid", 14), ("tetra10", 24)):
+        other = SimpleNamespace(type=kind, data=[[0] * 10])
+        for beside in (
+            SimpleNamespace(points=points, cells=[SimpleNamespace(type="tetra", data=tets), other]),
+            SimpleNamespace(points=points, cells_dict={10: tets, code: other.data}),
+        ):
+            with pytest.raises(geotherm.InputError, match=f"1 of the kind {kind} beside tets"):
+                geotherm.TetMesh(beside)
 
 
 def test_meshio_objects():

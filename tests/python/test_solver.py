@@ -148,6 +148,19 @@ def test_isolines_of_both_signs(bunny):
     assert min(values) < 0 < max(values) and 0 in values
     below = {line.value for line in geotherm.isolines(bunny, height - 100, count=3)}
     assert len(below) == 3 and max(below) < 0
+    triangle = geotherm.Mesh([[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]])
+    widest = geotherm.isolines(triangle, [-1.7e308, 1.7e308, 0], count=3)
+    assert [round(line.value / 1.7e308, 9) for line in widest] == [-0.5, 0, 0.5]
+
+
+def test_labels_are_looked_up_in_the_regions(solver):
+    """Whatever the order in which sources are given."""
+    for sources in ([5, 5, 700], ["700", 5], [(700, [0.2, 0.3, 0.5]), 5, [0.0, 0.0, 0.0], 900]):
+        answer = solver.solve(sources, labels=True, check="off")
+        regions = answer.report["regions"]
+        assert [region["label"] for region in regions] == list(range(len(regions)))
+        named = {one["source"]: one["label"] for one in regions if isinstance(one["source"], int)}
+        assert len(named) == 2 and all(answer.nearest[v] == label for v, label in named.items())
 
 
 def test_answers_and_lines_can_be_pickled(solver, tmp_path):

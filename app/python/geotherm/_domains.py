@@ -21,6 +21,7 @@ from geotherm._models import (
     Model,
     attributes,
     cells_of,
+    refuse_beside,
 )
 from geotherm._options import given_options, options_of
 
@@ -59,12 +60,16 @@ class TetMesh(Model):
 
     Args:
         vertices: (V, 3), model units; or a meshio object.
-        tets: (T, 4) vertex numbers, in either orientation.
+        tets: (T, 4) vertex numbers, in either orientation. Other cells of a volume are refused.
     """
 
     def __init__(self, vertices: Any, tets: Any = None) -> None:
         if tets is None:
-            cells = cells_of(vertices).get("tetra")
+            all_cells = cells_of(vertices)
+            others = ("tetra", "hexahedron", "wedge", "pyramid", "polyhedron")
+            cells = all_cells.get("tetra")
+            if cells:
+                refuse_beside(all_cells, "tetra", others, "tets", "cut them into tets")
             vertices = attributes(vertices, "points", "vertices")
             if not cells or vertices is None:
                 raise InputError("tets is missing", hint="give vertices and tets")
@@ -173,7 +178,8 @@ def read(
         options: the command line's about models, which options() lists: weld=0, format="ply",
             mask="keep:lh.cortex.label".
 
-    Returns: Mesh, TetMesh, PointCloud, Polygons or Grid, by what the file holds.
+    Returns: Mesh, TetMesh, PointCloud, Polygons or Grid, by what the file holds. Pickled, a Mesh is
+    its arrays, and what is no Mesh or has been welded is the absolute path, which is read again.
     Raises: Error, with the path, the line and the cause.
 
     >>> geotherm.read("bunny").n_faces
@@ -193,7 +199,9 @@ def read(
     }
     kind = kinds.get(handle.text("domain"), Model)
     by_arrays = kind is Mesh and "weld" not in settings
-    return kind._around(handle, () if by_arrays else (read_again, os.fspath(path), settings))
+    # Another process may work in another folder; a name that is no file is that of a bundled model.
+    again = os.path.abspath(path) if os.path.exists(path) else os.fspath(path)
+    return kind._around(handle, () if by_arrays else (read_again, again, settings))
 
 
 def read_again(path: str, settings: dict[str, Any]) -> Any:

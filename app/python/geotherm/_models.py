@@ -143,7 +143,8 @@ class Model:
         return self._handle.text("table")
 
     def write(self, path: str | os.PathLike[str]) -> None:
-        """Writes .ply, .obj, .off, .stl, of tets .mesh and .vtu: whole or not at all."""
+        """Writes .ply, .obj, .off, .stl, of tets .mesh and .vtu: whole or not at all. Of points,
+        polygons and grids it is the triangles that they are drawn as."""
         call("write", self._handle.value, path_bytes(path, "path"))
 
     def __repr__(self) -> str:
@@ -189,7 +190,20 @@ def attributes(thing: Any, *names: str) -> Any:
     return None
 
 
-_VTK_CELLS = {5: "triangle", 9: "quad", 10: "tetra"}
+_VTK_CELLS = {
+    5: "triangle",
+    9: "quad",
+    10: "tetra",
+    11: "hexahedron",
+    12: "hexahedron",
+    13: "wedge",
+    14: "pyramid",
+    24: "tetra10",
+    25: "hexahedron20",
+    26: "wedge15",
+    27: "pyramid13",
+    42: "polyhedron",
+}
 
 
 def cells_of(thing: Any) -> dict[str, list[Any]]:
@@ -198,25 +212,37 @@ def cells_of(thing: Any) -> dict[str, list[Any]]:
     if not isinstance(cells, (Mapping, list, tuple)):
         cells = getattr(thing, "cells_dict", None)
     if isinstance(cells, Mapping):
-        return {_VTK_CELLS.get(kind, str(kind)): [array] for kind, array in cells.items()}
+        named = [(_VTK_CELLS.get(kind, str(kind)), array) for kind, array in cells.items()]
+    else:
+        blocks = cells if isinstance(cells, (list, tuple)) else ()
+        named = [(b.type, b.data) for b in blocks if hasattr(b, "type") and hasattr(b, "data")]
     found: dict[str, list[Any]] = {}
-    for block in cells if isinstance(cells, (list, tuple)) else ():
-        if hasattr(block, "type") and hasattr(block, "data"):
-            found.setdefault(block.type, []).append(block.data)
+    for kind, array in named:
+        found.setdefault(kind, []).append(array)
     return found
+
+
+def refuse_beside(
+    cells: dict[str, list[Any]], kept: str, others: tuple[str, ...], called: str, cure: str
+) -> None:
+    """Errors: InputError, where cells of other kinds would be left out beside those that are kept."""
+    for kind, parts in cells.items():
+        if kind != kept and kind.startswith(others):
+            count = sum(len(part) for part in parts)
+            raise InputError(f"cells hold {count} of the kind {kind} beside {called}", hint=cure)
 
 
 def _faces_of(thing: Any) -> Any:
     """Triangles of a trimesh, pyvista or meshio object."""
     cells = cells_of(thing)
     if "triangle" in cells:
-        for kind, parts in cells.items():
-            if kind != "triangle" and kind.startswith(("triangle", "quad", "polygon")):
-                count = sum(len(part) for part in parts)
-                raise InputError(
-                    f"cells hold {count} of the kind {kind} beside triangles",
-                    hint="cut them into triangles, or give vertices and faces to geotherm.Polygons",
-                )
+        refuse_beside(
+            cells,
+            "triangle",
+            ("triangle", "quad", "polygon"),
+            "triangles",
+            "cut them into triangles, or give vertices and faces to geotherm.Polygons",
+        )
         return np.concatenate(cells["triangle"])
     if hasattr(thing, "regular_faces"):
         return thing.regular_faces

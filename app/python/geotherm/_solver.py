@@ -207,6 +207,8 @@ class Solver:
         """
         wanted = ["labels"] * labels + ["fields"] * fields
         if check is not None:
+            if " " in str(check):
+                raise InputError(f"check is {check!r}", hint="give one word, such as 'off' or 'exact'")
             wanted.append(f"check={check}")
         most = number_in(max_distance, "max_distance")
         if most != float("inf"):
@@ -301,8 +303,8 @@ class Solver:
         return Samples(warned(handle))
 
     def update(self, vertices: Any, *, progress: Progress = None) -> Solver:
-        """The same faces and options with the vertices (V, 3) elsewhere, in half to three quarters
-        of the time of a new solver. This one stays as it is."""
+        """The same faces and options with the vertices (V, 3) elsewhere: by heat without `refine` in
+        half to three quarters of the time of a new solver. This one stays as it is."""
         array, kept = given(vertices, "vertices", 3)
         moved, model = Handle(), Handle()
         with Watch(progress) as watch:

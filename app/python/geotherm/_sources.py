@@ -170,6 +170,12 @@ class Taken:
             self._array(sources)
             self._starts = list(range(sources.size + 1))
             return
+        if isinstance(sources, np.ndarray) and sources.ndim == 2 and sources.dtype.kind in "iu":
+            raise self._wrong(
+                f"is an array of whole numbers of the shape {sources.shape}, whose rows may be sets "
+                "of vertices or places",
+                "give sets as lists of vertices, or places as floats",
+            )
         if isinstance(sources, np.ndarray) and sources.ndim == 0:
             sources = [sources]
         if not isinstance(sources, Iterable):

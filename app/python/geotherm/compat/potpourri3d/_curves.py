@@ -78,6 +78,12 @@ class GeodesicTracer:
         if along.shape != (3,):
             raise InputError(f"direction_xyz has the shape {along.shape}, and (3,) is expected")
         e1, e2, _ = log_map(self._mesh, start, max_distance=self._near).frame
+        flat = float(np.hypot(along @ e1, along @ e2))
+        if flat < 1e-9 * float(np.linalg.norm(along)):
+            raise InputError(
+                "direction_xyz is along the normal at the start",
+                hint="give one with a part along the surface",
+            )
         angle = float(np.arctan2(along @ e2, along @ e1))
         line = trace(self._mesh, start, angle, float(np.linalg.norm(along)))
         return np.array(line.points if most is None else line.points[: most + 1])
