@@ -209,7 +209,7 @@ class EngineDrawing final : public Drawing {
                                       apart ? engine::Overlay() : layout.overlay);
     if (!whole) return whole.error();
     auto figure = std::make_shared<Figure>();
-    if (apart) figure->append(FigureShapes().of(words, settings, blank, layout.overlay));
+    if (apart) *figure = FigureShapes().of(words, settings, blank, layout.overlay);
 
     const int rows = (static_cast<int>(cells.size()) + columns - 1) / columns;
     const glm::ivec2 corner(glm::ceil(glm::vec2(layout.insets.left, layout.insets.top)));
@@ -249,7 +249,9 @@ class EngineDrawing final : public Drawing {
       if (apart) {
         const auto shapes = FigureShapes::build(shown, scene.surface);
         if (!shapes) return shapes.error();
-        figure->append(shapes->of(shown, one, scene, below.overlay), {place.x, place.y});
+        const Eigen::Vector2d from(place.x, place.y);
+        figure->append(shapes->of(shown, one, scene, below.overlay),
+                       {from, from + Eigen::Vector2d(one.width, one.height)});
         scene = FigureShapes::rest_of(scene);
       }
       const auto image = engine::draw_picture(*device_, *renderer_, scene,

@@ -102,6 +102,12 @@ class FigurePainter {
   void use(const Figure::Colour& c) { cairo_set_source_rgba(on_, c[0], c[1], c[2], c[3]); }
 
   void paint(const Figure::Stroke& stroke) {
+    cairo_save(on_);
+    if (!stroke.clip.isEmpty()) {
+      const Eigen::Vector2d size = stroke.clip.sizes();
+      cairo_rectangle(on_, stroke.clip.min().x(), stroke.clip.min().y(), size.x(), size.y());
+      cairo_clip(on_);
+    }
     use(stroke.colour);
     cairo_set_line_width(on_, stroke.width);
     const bool dashed = stroke.dash > 0;
@@ -113,6 +119,7 @@ class FigurePainter {
       for (const Eigen::Vector2d& p : part) cairo_line_to(on_, p.x(), p.y());
     }
     cairo_stroke(on_);
+    cairo_restore(on_);
   }
 
   void paint(const Figure::Box& box) {
@@ -164,8 +171,10 @@ void describe(cairo_surface_t* pdf, const std::vector<FileText>& texts) {
 
 }  // namespace
 
-void Figure::append(Figure other, const Eigen::Vector2d& by) {
+void Figure::append(Figure other, const Eigen::AlignedBox2d& cell) {
+  const Eigen::Vector2d by = cell.min();
   for (Stroke& stroke : other.strokes) {
+    stroke.clip = cell;
     for (Outline& part : stroke.parts) {
       for (Eigen::Vector2d& point : part) point += by;
     }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <Eigen/Geometry>
 #include <array>
 #include <cstddef>
 #include <optional>
@@ -23,6 +24,7 @@ struct Figure {
     Colour colour{};
     double width = 1;
     double dash = 0;  ///< from dash to dash; 0: none
+    Eigen::AlignedBox2d clip{};  ///< nothing is drawn beyond it; empty: beyond the picture
   };
   struct Box {
     Eigen::Vector2d min, max;
@@ -39,8 +41,8 @@ struct Figure {
   std::vector<Letters> letters;
   std::span<const std::byte> font;  ///< a TrueType file
 
-  /// Puts all of another one on top, so far from the corner.
-  void append(Figure other, const Eigen::Vector2d& by = Eigen::Vector2d::Zero());
+  /// Puts all of another one on top, into this part of the picture: strokes end there.
+  void append(Figure other, const Eigen::AlignedBox2d& cell);
 };
 
 /// The same picture has the same bytes.
