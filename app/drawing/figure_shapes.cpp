@@ -82,7 +82,7 @@ LineSight::View view_of(const engine::Camera& camera) {
     constexpr double kOutside = 4;
     const glm::vec3 back = camera.to_eye(to_scene(p));
     double far = kOutside;
-    if (!camera.orthographic) far = glm::length(camera.view * glm::vec4(to_scene(p), 1));
+    if (!camera.orthographic) far = glm::length(glm::vec3(camera.view * glm::vec4(to_scene(p), 1)));
     const Vec3 way = far * Vec3(back.x, back.y, back.z);
     return LineView::Ray{p + way, -way};
   };
@@ -112,21 +112,22 @@ class Strokes {
     }
   }
 
-  /// Each is hidden or seen as a whole; what overlaps is drawn at once.
+  /// Each is hidden or seen as a whole; what overlaps is drawn at once. Pieces of curves are half
+  /// as wide as points.
   void add_markers(std::span<const PictureData::Segment> markers) {
     const engine::MarkerStyle& style = scene_.markers;
-    const double width = 2 * style.radius * scene_.pixel_scale;
-    std::array<std::vector<Outline>, 2> parts;  // hidden, seen
-    for (const auto& [from, to] : markers) {
-      const Vec3 ends[] = {to_vec3(from), to_vec3(to)};
-      parts[sight_.sees(ends[0] / 2 + ends[1] / 2) ? 1 : 0].push_back(
+    std::array<std::vector<Outline>, 4> parts;  // pieces of curves, points: hidden; the same: seen
+    for (const PictureData::Segment& marker : markers) {
+      const Vec3 ends[] = {to_vec3(marker.from), to_vec3(marker.to)};
+      const std::size_t seen = sight_.sees(ends[0] / 2 + ends[1] / 2) ? 2 : 0;
+      parts[seen + (marker.from == marker.to ? 1 : 0)].push_back(
           {sight_.place(ends[0]), sight_.place(ends[1])});
     }
-    for (std::size_t seen = 0; seen < 2; ++seen) {
-      if (parts[seen].empty()) continue;
-      const float alpha = seen == 1 ? 1 : style.hidden_opacity;
-      strokes.push_back({parts[seen], to_colour(style.rim, alpha), width});
-      strokes.push_back({parts[seen], to_colour(style.colour, alpha), style.inside * width});
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+      const float alpha = i >= 2 ? 1 : style.hidden_opacity;
+      const float width = (i % 2 == 1 ? 2 : 1) * style.radius * scene_.pixel_scale;
+      add(parts[i], to_colour(style.rim, alpha), width);
+      add(parts[i], to_colour(style.colour, alpha), style.inside * width);
     }
   }
 

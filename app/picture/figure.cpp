@@ -10,6 +10,8 @@
 #include <memory>
 #include <utility>
 
+#include "app/text/text.h"
+
 namespace geotherm::app {
 namespace {
 
@@ -26,6 +28,8 @@ using Gradient = std::unique_ptr<cairo_pattern_t, Destroy<cairo_pattern_destroy>
 using FontFace = std::unique_ptr<cairo_font_face_t, Destroy<cairo_font_face_destroy>>;
 
 constexpr int kUsualDpi = 96;
+/// The longest side of a PDF's page, points, that all readers show.
+constexpr double kLongestPage = 14400;
 
 cairo_status_t append(void* to, const unsigned char* bytes, unsigned int count) {
   static_cast<std::string*>(to)->append(reinterpret_cast<const char*>(bytes), count);
@@ -205,6 +209,12 @@ Result<std::string> figure_bytes(const DrawnPicture& picture, FigureFormat forma
     scale = 25.4 / *dpi;
   }
   const double width = scale * picture.width, height = scale * picture.height;
+  if (format == FigureFormat::kPdf && std::max(width, height) > kLongestPage) {
+    return Error{ErrorCode::kBadInput,
+                 "a PDF page of " + fixed(width, 0) + " x " + fixed(height, 0) +
+                     " points is larger than the " + fixed(kLongestPage, 0) + " that readers show",
+                 {"ask for a larger ", SettingHint{"dpi"}, " or a smaller ", SettingHint{"size"}}};
+  }
   Surface page;
   if (format == FigureFormat::kPdf) {
     page.reset(cairo_pdf_surface_create_for_stream(append, &bytes, width, height));

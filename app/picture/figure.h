@@ -23,7 +23,7 @@ struct Figure {
     std::vector<Outline> parts;
     Colour colour{};
     double width = 1;
-    double dash = 0;  ///< from dash to dash; 0: none
+    double dash = 0;             ///< from dash to dash; 0: none
     Eigen::AlignedBox2d clip{};  ///< nothing is drawn beyond it; empty: beyond the picture
   };
   struct Box {
@@ -54,7 +54,8 @@ inline constexpr double kDashShare = 0.6;
 /// A file with the picture's pixels as an image and its shapes over it, one page. `texts`: Title,
 /// Description and others, which a PDF holds. `dpi`: pixels an inch, which say how large the page
 /// is; absent: 96 in a PDF, and an SVG is as large as its pixels.
-/// Precondition: picture.figure. Errors: kOutOfMemory, kBadFile (the font).
+/// Precondition: picture.figure. Errors: kOutOfMemory, kBadFile (the font), kBadInput (a page that
+/// readers of PDF do not show).
 Result<std::string> figure_bytes(const DrawnPicture& picture, FigureFormat format,
                                  const std::vector<FileText>& texts, std::optional<int> dpi = {});
 

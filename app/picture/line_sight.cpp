@@ -98,15 +98,20 @@ LineView::Ray LineView::ray_to(const Vec3& point) const {
 
 namespace {
 
-/// What lies before a point by less than this, in radii of the model, is the surface it lies on.
-constexpr double kOnSurface = 4e-3;
+/// What lies before a point by less than this, in radii of the model, is the surface it lies on: a
+/// hundred roundings of single precision.
+constexpr double kOnSurface = 1e-5;
+/// The same of contours, which zigzag over the edges of a curved surface, partly behind others.
+constexpr double kAtContour = 4e-3;
 
 }  // namespace
 
-bool LineSight::sees(const Vec3& point) const {
+bool LineSight::sees(const Vec3& point) const { return sees(point, kOnSurface); }
+
+bool LineSight::sees(const Vec3& point, double reach) const {
   const LineView::Ray ray = view_.ray_to(point);
   const auto hit = tree_.first_hit(ray.origin, ray.direction);
-  return !hit || (1 - hit->distance) * ray.direction.stableNorm() < kOnSurface * view_.radius;
+  return !hit || (1 - hit->distance) * ray.direction.stableNorm() < reach * view_.radius;
 }
 
 Vec3 LineSight::last_such(Vec3 such, Vec3 other, bool visible) const {
@@ -155,7 +160,7 @@ std::vector<Outline> visible_contours(const TriangleMesh& mesh, const LineSight&
       if (!same_way || faces_eye[f] == faces_eye[g]) continue;
     }
     const Vec3 ends[] = {at(clean.edges.low(e)), at(clean.edges.high(e))};
-    if (!sight.sees(ends[0] / 2 + ends[1] / 2)) continue;
+    if (!sight.sees(ends[0] / 2 + ends[1] / 2, kAtContour)) continue;
     out.push_back({view.project(ends[0]), view.project(ends[1])});
   }
   return out;

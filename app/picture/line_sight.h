@@ -69,7 +69,10 @@ class LineSight {
       : LineSight(tree, View{[&view](const Vec3& p) { return view.ray_to(p); },
                              [&view](const Vec3& p) { return view.project(p); }, view.radius()}) {}
 
+  /// Whether the surface leaves a point on it in sight.
   bool sees(const Vec3& point) const;
+  /// The same where what hides the point by no more than `reach`, in radii, does not count.
+  bool sees(const Vec3& point, double reach) const;
   Eigen::Vector2d place(const Vec3& point) const { return view_.project(point); }
 
   /// The parts of a polyline that are visible, or those that are hidden, pixels; where they end is

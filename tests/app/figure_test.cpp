@@ -79,6 +79,33 @@ TEST(Figures, HaveTheSameBytesEachTime) {
             std::regex_replace(figure_file(FigureFormat::kSvg), number, "$1"));
 }
 
+TEST(Figures, AsPdfAreNoLargerThanReadersShow) {
+  DrawnPicture wide = figured_picture();
+  wide.width = 2100;
+  wide.height = 1;
+  wide.pixels.assign(std::size_t{4} * 2100, 255);
+  const auto refused = app::figure_bytes(wide, FigureFormat::kPdf, {}, 10);
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().code, ErrorCode::kBadInput);
+  EXPECT_NE(refused.error().message.find("15120 x 7 points"), std::string::npos)
+      << refused.error().message;
+  EXPECT_TRUE(app::figure_bytes(wide, FigureFormat::kPdf, {}, 11));
+  EXPECT_TRUE(app::figure_bytes(wide, FigureFormat::kSvg, {}, 10));
+}
+
+TEST(Figures, EndTheLinesOfACellWithIt) {
+  DrawnPicture picture = figured_picture();
+  EXPECT_EQ(count_of("<clipPath", *app::figure_bytes(picture, FigureFormat::kSvg, {})), 0U);
+  Figure cells;
+  cells.append(*picture.figure, {Eigen::Vector2d(10, 5), Eigen::Vector2d(25, 15)});
+  EXPECT_EQ(cells.strokes[0].parts[0][0], Eigen::Vector2d(11, 6));
+  EXPECT_EQ(cells.strokes[0].clip.min(), Eigen::Vector2d(10, 5));
+  EXPECT_EQ(cells.strokes[0].clip.max(), Eigen::Vector2d(25, 15));
+  cells.font = picture.figure->font;
+  picture.figure = std::make_shared<Figure>(std::move(cells));
+  EXPECT_GE(count_of("<clipPath", *app::figure_bytes(picture, FigureFormat::kSvg, {})), 1U);
+}
+
 /// A square about the z axis with distances that grow with x, before and behind each other.
 void append_square(PictureData& data, float half, float z) {
   const auto first = static_cast<std::uint32_t>(data.positions.size());
@@ -114,16 +141,18 @@ class FigureOfSquares : public testing::Test {
   engine::Scene scene_;
 };
 
+double length_of(const Figure& figure) {
+  double length = 0;
+  for (const Figure::Stroke& stroke : figure.strokes) {
+    EXPECT_EQ(stroke.dash, 0);
+    for (const app::Outline& part : stroke.parts) length += (part.back() - part.front()).norm();
+  }
+  return length;
+}
+
 TEST_F(FigureOfSquares, ShowsIsolinesWhereTheyAreSeen) {
   data_.lines.clear();
-  double length = 0;
-  const Figure found = figure();
-  for (const Figure::Stroke& stroke : found.strokes) {
-    EXPECT_EQ(stroke.dash, 0);
-    for (const app::Outline& part : stroke.parts) {
-      length += (part.back() - part.front()).norm();
-    }
-  }
+  const double length = length_of(figure());
   // Levels 0.3 and 0.6 at x = -0.167 and 0.167 pass behind the square in front, which has them as
   // well; 0.9 is the edge itself, beyond which nothing is larger.
   const double pixels = scene_.camera.pixels_per_unit;
@@ -131,6 +160,34 @@ TEST_F(FigureOfSquares, ShowsIsolinesWhereTheyAreSeen) {
   engine::Scene rest = FigureShapes::rest_of(scene_);
   EXPECT_EQ(rest.surface.line_spacing, 0);
   EXPECT_FALSE(rest.lines.visible);
+}
+
+TEST_F(FigureOfSquares, HasNoIsolinesOfTheOtherSideOfAThinBody) {
+  data_ = {};
+  append_square(data_, 0.5F, 0);
+  scene_.surface.line_spacing = 0.3F;
+  const double one = length_of(figure());
+  EXPECT_GT(one, 0);
+  append_square(data_, 0.5F, -0.001F);
+  EXPECT_NEAR(length_of(figure()) / one, 1, 1e-3);
+}
+
+TEST_F(FigureOfSquares, HasCurvesOfSourcesHalfAsWideAsPoints) {
+  data_.lines.clear();
+  scene_.surface.line_spacing = 0;
+  scene_.markers.visible = true;
+  scene_.markers.radius = 8;
+  const auto widths = [this] {
+    std::vector<double> out;
+    for (const Figure::Stroke& stroke : figure().strokes) out.push_back(stroke.width);
+    return out;
+  };
+  data_.sources = {{{0.1F, 0, 0.3F}, {0.1F, 0, 0.3F}}};
+  const std::vector<double> point = widths();
+  ASSERT_EQ(point.size(), 2U);
+  EXPECT_EQ(point[0], 16);
+  data_.sources = {{{0.1F, 0, 0.3F}, {-0.1F, 0, 0.3F}}};
+  EXPECT_EQ(widths(), (std::vector<double>{point[0] / 2, point[1] / 2}));
 }
 
 TEST_F(FigureOfSquares, HasNoIsolinesBeyondTheEndsOfTheMap) {
