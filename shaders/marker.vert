@@ -7,10 +7,18 @@
 
 layout(location = 0) in vec3 from;
 layout(location = 1) in vec3 to;
+layout(location = 2) in vec4 outward;  // which way the faces look, and the sine of how far from that
 
 layout(location = 0) out vec2 at;            // pixels, from the segment's first end
 layout(location = 1) flat out vec2 segment;  // its other end, pixels
 layout(location = 2) flat out float radius;  // pixels
+
+// Whether all faces about the marker look away from the eye.
+bool faces_away() {
+  vec3 middle = (frame.eye_from_scene * vec4(0.5 * (from + to), 1.0)).xyz;
+  vec3 to_eye = frame.orthographic > 0.5 ? vec3(0.0, 0.0, 1.0) : -normalize(middle);
+  return dot(mat3(frame.eye_from_scene) * outward.xyz, to_eye) < -outward.w;
+}
 
 vec2 pixels(vec4 clip) { return (clip.xy / clip.w * 0.5 + 0.5) * frame.extent; }
 
@@ -39,6 +47,7 @@ void main() {
   vec2 p = (second ? pb + along * reach : pa - along * reach) + side * across * reach;
   at = p - pa;
   segment = d;
-  float depth = nearer_depth(second ? b : a, radius);
+  // Through a thin body, what is on its other side would come to the front.
+  float depth = nearer_depth(second ? b : a, faces_away() ? 0.0 : radius);
   gl_Position = in_tile(vec4(p / frame.extent * 2.0 - 1.0, depth, 1.0));
 }

@@ -179,6 +179,8 @@ class FramePainter {
     const bool first = !unit_;
     PictureData data = picture_of_frame(mesh, extent_);
     data.up = answer.model.up;
+    if (first) solid_ = is_solid(mesh);
+    data.solid = solid_;
     add_sources(data, mesh, answer.sources);
     add_distances(data, answer.result.distances, unit_);
     unit_ = data.value_unit;
@@ -187,8 +189,6 @@ class FramePainter {
     if (first) largest_face_value_ = data.largest_face_value;
     data.largest_face_value = largest_face_value_;
     if (!shows_arrows(view)) return data;
-    if (first) solid_ = is_solid(mesh);
-    data.solid = solid_;
     add_fields(data, mesh, answer.result);
     return data;
   }

@@ -304,6 +304,7 @@ Result<PictureData> prepare_picture(const RenderArguments& arguments, const View
                   std::vector<double>(static_cast<std::size_t>(mesh->vertex_count()), kUnreached));
     return data;
   }
+  data.solid = is_solid(*mesh);
   add_sources(data, *mesh, solved->sources, places_in_cells(solver.model(), solved->sources));
   add_distances(data, solved->result.distances, {}, measures_time(solved->model));
   data.nearest = solved->result.nearest_source;
@@ -323,10 +324,7 @@ Result<PictureData> prepare_picture(const RenderArguments& arguments, const View
   if (!unseen.empty()) solved->warnings.push_back({unseen});
   warnings = solved->warnings;
   set_view_values(data, solved->model, view, &solved->result);
-  if (shows_arrows(view)) {
-    add_fields(data, *mesh, solved->result);
-    data.solid = is_solid(*mesh);
-  }
+  if (shows_arrows(view)) add_fields(data, *mesh, solved->result);
   figures.solve = *std::move(solved);
   return data;
 }

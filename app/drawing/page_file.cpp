@@ -223,7 +223,7 @@ void pack_surface(const SceneMesh& mesh, const PictureData& data, bool regions,
   arrays.add("regions", places, 1);
   arrays.add_floats("margins", regions ? region_margins_of(data) : std::vector<float>(), 1,
                     kValueBits);
-  arrays.add_floats("markers", numbers_in(data.sources), 6, kFineBits);
+  arrays.add_floats("markers", numbers_in(scene_markers(data)), 10, kFineBits);
 }
 
 std::string html_text(const std::string& text) {

@@ -299,6 +299,15 @@ std::vector<float> region_margins_of(const PictureData& data) {
   return engine::region_margins({positions, data.faces}, data.nearest, scene_distances(data));
 }
 
+std::vector<engine::Marker> scene_markers(const PictureData& data) {
+  std::vector<engine::Marker> out;
+  for (const auto& [from, to, way] : data.sources) {
+    out.push_back({{from[0], from[1], from[2]}, {to[0], to[1], to[2]}});
+    if (data.solid) out.back().outward = {way[0], way[1], way[2], way[3]};
+  }
+  return out;
+}
+
 std::vector<glm::vec3> scene_vectors(const std::vector<PictureData::Vector>& all) {
   std::vector<glm::vec3> out;
   out.reserve(all.size());
@@ -332,11 +341,7 @@ Result<void> upload_answer(engine::Renderer& renderer, const PictureData& data,
   const auto arrows = renderer.set_arrows(scene_vectors(data.heat_directions),
                                           scene_vectors(data.distance_gradients));
   if (!arrows) return arrows;
-  std::vector<engine::Marker> markers;
-  for (const auto& [from, to] : data.sources) {
-    markers.push_back({{from[0], from[1], from[2]}, {to[0], to[1], to[2]}});
-  }
-  return renderer.set_markers(markers);
+  return renderer.set_markers(scene_markers(data));
 }
 
 Result<void> upload_picture(engine::Renderer& renderer, const PictureData& data,

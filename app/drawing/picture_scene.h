@@ -45,6 +45,9 @@ std::vector<float> region_margins_of(const PictureData& data);
 /// The settings' map in as many colours as they ask for.
 engine::ColourTable colours_of(const engine::ColourMap& map, const PictureDataSettings& settings);
 
+/// The sources.
+std::vector<engine::Marker> scene_markers(const PictureData& data);
+
 std::vector<glm::vec3> scene_vectors(const std::vector<PictureData::Vector>& all);
 
 std::vector<engine::Openness> scene_openness(const PictureData& data);

@@ -160,7 +160,9 @@ void add_sources(PictureData& data, const TriangleMesh& mesh, const SourceSet& s
   data.sources.clear();
   const SceneSpace scene(data.centre, data.model_per_scene);
   std::set<Index> on_curves;
+  std::vector<OutwardPlace> places;
   for (const auto& [from, to] : sources.edges) {
+    places.push_back({{from, to}, kNoIndex});
     data.sources.push_back({scene.of(mesh.positions()[from]), scene.of(mesh.positions()[to])});
     on_curves.insert({from, to});
   }
@@ -168,13 +170,19 @@ void add_sources(PictureData& data, const TriangleMesh& mesh, const SourceSet& s
     return scene.of(position_at(mesh, SurfacePoint::in_face(face, weights)));
   };
   for (const FaceSegment& segment : sources.segments) {
+    places.push_back({{kNoIndex, kNoIndex}, segment.face});
     data.sources.push_back(
         {in_face(segment.face, segment.from), in_face(segment.face, segment.to)});
   }
   for (const SurfacePoint& point : sources.points) {
     if (point.is_vertex() && on_curves.contains(point.vertex)) continue;
+    places.push_back({{point.vertex, point.vertex}, point.is_vertex() ? kNoIndex : point.face});
     const PictureData::Vector place = scene.of(position_at(mesh, point));
     data.sources.push_back({place, place});
+  }
+  if (data.solid) {
+    const auto outward = outward_at(mesh, places);
+    for (std::size_t i = 0; i < places.size(); ++i) data.sources[i].outward = outward[i];
   }
   for (const Vec3& at : in_cells) {
     const PictureData::Vector place = scene.of(at);

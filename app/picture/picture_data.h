@@ -11,6 +11,7 @@
 #include <string_view>
 #include <vector>
 
+#include "app/picture/outward.h"
 #include "app/picture/picture_settings.h"
 #include "geotherm/distance_method.h"
 #include "geotherm/domains.h"
@@ -69,6 +70,7 @@ struct PictureData {
   std::vector<float> tet_values;  ///< T: of a view about tets, instead of values of faces
   struct Segment {
     Vector from, to;
+    Outward outward = kAllAround;  ///< on a solid; elsewhere any face may be seen from behind
   };
   std::vector<Segment> sources;  ///< points (both ends the same) and pieces of curves
 

@@ -34,6 +34,9 @@ struct SurfaceGeometry {
 /// A source: a point (both ends the same) or a straight piece of a curve.
 struct Marker {
   glm::vec3 from, to;  ///< scene space
+  /// Which way the faces about it look, and the sine of the angle that they are at most away from
+  /// that: where all look away from the eye the marker is hidden as they are. Above 1: not known.
+  glm::vec4 outward{0, 0, 0, 2};
 };
 
 /// A line on the surface.

@@ -180,7 +180,8 @@ vk::Pipeline Pipelines::markers(bool hidden) {
                .fragment = embedded::marker_frag(),
                .bindings = {{0, sizeof(Marker), kPerInstance}},
                .attributes = {{0, 0, kFloat3, offsetof(Marker, from)},
-                              {1, 0, kFloat3, offsetof(Marker, to)}},
+                              {1, 0, kFloat3, offsetof(Marker, to)},
+                              {2, 0, vk::Format::eR32G32B32A32Sfloat, offsetof(Marker, outward)}},
                .topology = vk::PrimitiveTopology::eTriangleStrip,
                .blend = true,
                .depth_test = hidden ? vk::CompareOp::eLess : vk::CompareOp::eGreaterOrEqual});

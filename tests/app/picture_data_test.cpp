@@ -140,6 +140,24 @@ TEST(PictureSources, ArePointsAndPiecesOfCurves) {
   EXPECT_LE((wide(data.sources[2].from) - inside).norm(), kSceneRounding);
 }
 
+TEST(PictureSources, OfASolidKnowWhichWayItsFacesLook) {
+  const MeshPtr mesh = finish(sphere(3));
+  SourceSet sources = SourceSet::of_vertices({17});
+  sources.points.push_back(SurfacePoint::in_face(3, {0.5, 0.25, 0.25}));
+  PictureData data = picture_of(*mesh);
+  app::add_sources(data, *mesh, sources);
+  EXPECT_EQ(data.sources[0].outward, app::kAllAround) << "it may be open";
+  data.solid = true;
+  app::add_sources(data, *mesh, sources);
+  for (const PictureData::Segment& source : data.sources) {
+    const auto& [x, y, z, w] = source.outward;
+    EXPECT_GT(Vec3(x, y, z).dot(wide(source.from).normalized()), 0.98);
+    EXPECT_LT(w, 0.3);
+  }
+  EXPECT_GT(data.sources[0].outward[3], 0.01F) << "its faces look different ways";
+  EXPECT_LT(data.sources[1].outward[3], 1e-6F) << "of one face";
+}
+
 TEST(PictureFields, KeepTheHeatsDirectionWhereHeatUnderflows) {
   constexpr Index kLength = 2000;
   const MeshPtr strip = finish(plane_grid(kLength, 2, kLength, 2));

@@ -161,6 +161,23 @@ TEST_F(Markers, OnTheFarSideOfASphereAreFaint) {
   EXPECT_GT(difference(colour, glm::vec3(1)), 0.3F);
 }
 
+TEST_F(Markers, OnTheFarSideOfAThinBodyAreFaint) {
+  Model model = square_model(0.6F, 0);
+  append(model, square_model(0.6F, 0.01F));
+  Marker marker = point({0.1F, 0.1F, 0});
+  const auto colour = [&](const glm::vec4& outward) {
+    marker.outward = outward;
+    Stage stage = stage_with(model, marker);
+    return colour_at(stage.draw(), stage.scene.camera.project(marker.from));
+  };
+  const glm::vec3 faint = colour({0, 0, -1, 0});
+  EXPECT_GT(difference(faint, kInside), 0.3F);
+  EXPECT_GT(difference(faint, glm::vec3(1)), 0.1F);
+  for (const glm::vec4& seen : {glm::vec4(0, 0, 1, 0), {0, 0, -0.5F, 0.6F}, {0, 0, 0, 2}}) {
+    EXPECT_LE(difference(colour(seen), kInside), kPixelRounding) << seen.z << " " << seen.w;
+  }
+}
+
 TEST_F(Markers, BehindTheEyeAreNotDrawn) {
   Stage stage = stage_with(plane_model(2, 2), {{0, 0, 20}, {0.2F, 0, 30}});
   stage.look({.azimuth = 0, .elevation = 0});

@@ -228,13 +228,13 @@ class Painter {
     gl.enable(gl.BLEND);
     gl.blendFunc(gl.ONE, gl.ONE_MINUS_SRC_ALPHA);
     const at = this.use('marker');
-    this.attributes(buffers.markers, [3, 3], 1);
+    this.attributes(buffers.markers, [3, 3, 4], 1);
     for (const [test, opacity] of [[gl.LESS, view.hidden], [gl.GEQUAL, 1]]) {
       gl.depthFunc(test);
       gl.uniform1f(at('push.opacity'), opacity);
       for (const inside of [0, 1]) {
         gl.uniform1f(at('push.inside'), inside);
-        gl.drawArraysInstanced(gl.TRIANGLE_STRIP, 0, 4, arrays.markers.length / 6);
+        gl.drawArraysInstanced(gl.TRIANGLE_STRIP, 0, 4, arrays.markers.length / 10);
       }
     }
   }
