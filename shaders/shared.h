@@ -52,7 +52,7 @@ struct Frame {
   float orthographic;  // 1 or 0
   vec4 tile;           // of the picture: scale and shift of its clip coordinates
   vec4 range;        // x, y: place on the colour map = scaled value * x + y; z: scaled value of 1;
-                     // where kLogarithmic: place = log2(scaled value) * x + y
+                     // where kLogarithmic: place = log2(scaled value + w) * x + y
   vec4 plain;        // colour of the surface
   vec4 line;         // colour, width
   vec4 wire;         // colour, width

@@ -55,7 +55,7 @@ vec3 map_colour(float x) {
 
 // On the colour map, 0 to 1 between its ends.
 float place_of(float value) {
-  float measure = (features & kLogarithmic) != 0 ? log2(max(value, 1e-37)) : value;
+  float measure = (features & kLogarithmic) != 0 ? log2(max(value + frame.range.w, 1e-37)) : value;
   return measure * frame.range.x + frame.range.y;
 }
 

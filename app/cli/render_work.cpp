@@ -86,8 +86,8 @@ void note_values(const PictureFigures& figures, const PictureData& data,
                  std::vector<Warning>& warnings) {
   const PictureScale& scale = figures.scale;
   if (figures.settings.line_values.empty() || scale.levels.empty() || !scale.coloured) return;
-  const double low = std::max(scale.min, data.smallest_value * data.value_unit);
-  const double high = std::min(scale.max, data.greatest_value * data.value_unit);
+  const double low = std::max(scale.min, data.smallest_value);
+  const double high = std::min(scale.max, data.greatest_value);
   const bool some = std::ranges::any_of(
       scale.levels, [&](double level) { return level >= low && level <= high; });
   if (some) return;

@@ -39,10 +39,9 @@ Result<void> check_address_space() {
 PictureData words_about(const std::vector<PictureData>& cells) {
   PictureData words = cells.front();
   for (const PictureData& cell : cells) {
-    const auto ratio = static_cast<float>(cell.value_unit / words.value_unit);
-    words.greatest_value = std::max(words.greatest_value, cell.greatest_value * ratio);
-    words.smallest_value = std::min(words.smallest_value, cell.smallest_value * ratio);
-    words.smallest_positive = std::min(words.smallest_positive, cell.smallest_positive * ratio);
+    words.greatest_value = std::max(words.greatest_value, cell.greatest_value);
+    words.smallest_value = std::min(words.smallest_value, cell.smallest_value);
+    words.smallest_positive = std::min(words.smallest_positive, cell.smallest_positive);
     words.unreached = words.unreached || cell.unreached;
     if (&cell != &cells.front()) {
       words.lines.insert(words.lines.end(), cell.lines.begin(), cell.lines.end());

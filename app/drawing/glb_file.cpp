@@ -137,8 +137,9 @@ float place_on(const engine::SurfaceStyle& style, float value) {
   const float width = style.range_max - style.range_min;
   if (!(width > 0)) return 0;
   if (!style.log) return (value - style.range_min) / width;
-  return value > 0 ? std::log(value / style.range_min) / std::log(style.range_max / style.range_min)
-                   : 0;
+  const float low = style.range_min + style.log_offset, high = style.range_max + style.log_offset;
+  value += style.log_offset;
+  return value > 0 ? std::log(value / low) / std::log(high / low) : 0;
 }
 
 /// What the view paints, one colour a vertex.
@@ -174,7 +175,7 @@ std::vector<Colour16> colours_of(const SceneMesh& mesh, const PictureData& shown
 std::vector<float> distances_of(const SceneMesh& mesh, const PictureData& data) {
   std::vector<float> out;
   for (const std::uint32_t v : mesh.origin) {
-    const double value = double{data.values[v]} * data.value_unit;
+    const double value = data.value_base + double{data.values[v]} * data.value_unit;
     const bool known = data.values[v] != kNoPictureValue;
     out.push_back(
         known ? static_cast<float>(std::clamp<double>(value, std::numeric_limits<float>::lowest(),

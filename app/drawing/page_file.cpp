@@ -267,17 +267,19 @@ Result<std::string> page_file(const PictureData& shown, const PictureData& whole
 
   const SceneMesh mesh = scene_mesh(shown);
   PageTables tables;
-  PageJson json = {{"size", {settings.width, settings.height}},
-                   {"camera", camera_json(camera)},
-                   {"asked", geotherm::to_text(settings.view)},
-                   {"background", geotherm::to_text(settings.background)},
-                   {"caption", settings.caption ? whole.caption : std::string()},
-                   {"vertices", whole.positions.size()},
-                   {"centre", {whole.centre.x(), whole.centre.y(), whole.centre.z()}},
-                   {"model_per_scene", whole.model_per_scene},
-                   {"value", {{"unit", whole.value_unit}, {"title", whole.value_title}}},
-                   {"face_title", whole.face_title},
-                   {"pixel_scale", scene_of(whole, settings, {}).pixel_scale}};
+  PageJson json = {
+      {"size", {settings.width, settings.height}},
+      {"camera", camera_json(camera)},
+      {"asked", geotherm::to_text(settings.view)},
+      {"background", geotherm::to_text(settings.background)},
+      {"caption", settings.caption ? whole.caption : std::string()},
+      {"vertices", whole.positions.size()},
+      {"centre", {whole.centre.x(), whole.centre.y(), whole.centre.z()}},
+      {"model_per_scene", whole.model_per_scene},
+      {"value",
+       {{"base", whole.value_base}, {"unit", whole.value_unit}, {"title", whole.value_title}}},
+      {"face_title", whole.face_title},
+      {"pixel_scale", scene_of(whole, settings, {}).pixel_scale}};
   const engine::LineStyle lines;
   json["hidden_lines"] = {
       {"width", lines.hidden_width}, {"opacity", lines.hidden_opacity}, {"dash", lines.dash}};

@@ -40,7 +40,8 @@ constexpr glm::vec4 kNothing{1, 1, 1, 0};
 /// Model units as the engine's values; kept within what shaders can compute with.
 float value_of(const PictureData& data, double distance) {
   constexpr double kLargest = 1e18;
-  return static_cast<float>(std::clamp(distance / data.value_unit, -kLargest, kLargest));
+  const double value = (distance - data.value_base) / data.value_unit;
+  return static_cast<float>(std::clamp(value, -kLargest, kLargest));
 }
 
 engine::Light light_of(PictureLight light) {
@@ -86,7 +87,10 @@ engine::SurfaceStyle surface_of(const PictureData& data, const PictureSettings& 
   style.range_min = value_of(data, scale.min);
   style.range_max = value_of(data, scale.max);
   style.log = scale.kind == ColourScale::kLog;
-  style.line_spacing = scale.levels.empty() ? value_of(data, scale.spacing) : 0;
+  style.log_offset = -value_of(data, 0);
+  // Multiples within the values of a field are levels.
+  const bool multiples = scale.levels.empty() && !data.is_field;
+  style.line_spacing = multiples ? value_of(data, scale.spacing) : 0;
   for (const double level : scale.levels) style.levels.push_back(value_of(data, level));
   return style;
 }

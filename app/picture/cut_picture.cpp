@@ -65,13 +65,20 @@ std::optional<PlaneInScene> plane_of(const std::vector<Vec3>& positions,
 /// reached is far.
 class Threshold {
  public:
-  Threshold(const PictureData& data, const Peel& peel) : values_(data.values), peel_(peel) {}
+  Threshold(const PictureData& data, const Peel& peel) : values_(data.values), peel_(peel) {
+    double most = data.value_unit;
+    if (data.value_base != 0) {
+      most = std::max(std::abs(data.smallest_value), std::abs(data.greatest_value));
+    }
+    base_ = data.value_base / most;
+    unit_ = data.value_unit / most;
+  }
 
   template <class Cell>
   bool keeps(const Cell& cell) const {
     return std::ranges::all_of(cell, [this](Index v) {
       const float value = values_[static_cast<std::size_t>(v)];
-      const double share = value == kNoPictureValue ? kUnreached : std::abs(double{value});
+      const double share = value == kNoPictureValue ? kUnreached : std::abs(base_ + value * unit_);
       return peel_.side == PeelSide::kBelow ? share <= peel_.share : share >= peel_.share;
     });
   }
@@ -79,6 +86,7 @@ class Threshold {
  private:
   const std::vector<float>& values_;
   const Peel& peel_;
+  double base_, unit_;  // of the values, in shares of the largest
 };
 
 /// What is drawn, in the making: faces over vertices and points.

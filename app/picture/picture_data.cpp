@@ -208,18 +208,24 @@ void add_line(PictureData& data, std::span<const Vec3> points, const std::string
 
 namespace {
 
-void note_extent(PictureData& data) {
-  constexpr float kMax = std::numeric_limits<float>::max();
-  float least = kMax, greatest = -kMax, positive = kMax;
-  for (const float value : data.values) {
-    if (value == kNoPictureValue) continue;
+/// Sets what is shown: these, from value_base on in value_unit.
+void set_values(PictureData& data, std::span<const double> values) {
+  double least = kUnreached, greatest = -kUnreached, positive = kUnreached;
+  data.values.clear();
+  data.values.reserve(values.size());
+  for (const double value : values) {
+    const bool known = std::isfinite(value);
+    data.values.push_back(known ? static_cast<float>((value - data.value_base) / data.value_unit)
+                                : kNoPictureValue);
+    if (!known) continue;
     least = std::min(least, value);
     greatest = std::max(greatest, value);
     if (value > 0) positive = std::min(positive, value);
   }
-  data.smallest_value = least == kMax ? 0 : least;
-  data.greatest_value = greatest == -kMax ? 0 : greatest;
-  data.smallest_positive = positive == kMax ? 0 : positive;
+  const auto or_none = [](double x) { return std::isfinite(x) ? x : 0; };
+  data.smallest_value = or_none(least);
+  data.greatest_value = or_none(greatest);
+  data.smallest_positive = or_none(positive);
   data.unreached = std::ranges::any_of(data.faces, [&data](const auto& face) {
     return std::ranges::any_of(face, [&data](auto v) { return data.values[v] == kNoPictureValue; });
   });
@@ -234,17 +240,12 @@ void add_distances(PictureData& data, std::span<const double> distances, std::op
     if (!unit && std::isfinite(d)) most = std::max(most, d);
   }
   data.value_unit = most > 0 ? most : 1;
+  data.value_base = 0;
   data.largest_value = most > 0 ? 1 : 0;
   data.is_signed = data.is_field = false;
   // The unit stays on one line.
   data.value_title = times ? "travel time (time\u00a0units)" : "distance (model\u00a0units)";
-  data.values.clear();
-  data.values.reserve(distances.size());
-  for (const double d : distances) {
-    data.values.push_back(std::isfinite(d) ? static_cast<float>(d / data.value_unit)
-                                           : kNoPictureValue);
-  }
-  note_extent(data);
+  set_values(data, distances);
 }
 
 void add_error(PictureData& data, std::span<const double> signed_error, const std::string& title) {
@@ -253,16 +254,19 @@ void add_error(PictureData& data, std::span<const double> signed_error, const st
   add_distances(data, sizes);
   data.is_signed = true;
   data.value_title = title;
-  for (std::size_t i = 0; i < signed_error.size(); ++i) {
-    if (signed_error[i] < 0 && std::isfinite(signed_error[i])) data.values[i] = -data.values[i];
-  }
-  note_extent(data);
+  set_values(data, signed_error);
 }
 
 void add_field(PictureData& data, std::span<const double> values) {
   add_error(data, values, "value");
   data.is_signed = data.smallest_value < 0 && data.greatest_value > 0;
   data.is_field = true;
+  if (data.is_signed) return;
+  // Floats would not tell values apart that are far from 0 and near each other.
+  data.value_base = data.smallest_value;
+  const double range = data.greatest_value - data.smallest_value;
+  if (range > 0) data.value_unit = range;
+  set_values(data, values);
 }
 
 void add_difference(PictureData& data, std::span<const double> difference, bool times) {

@@ -49,12 +49,14 @@ struct PictureData {
   std::vector<Index> face_tets;  ///< F: of a volume, the tet that each face belongs to
   bool solid = false;            ///< closed, all faces counter-clockwise from outside
 
-  std::vector<float> values;  ///< V: distance / value_unit, or kNoPictureValue; empty: no solve
-  double value_unit = 1;      ///< model units; the largest distance, 1 if there is none above 0, or
-                              ///< that of another frame
-  double largest_value = 0;   ///< of `values`: 1, or 0 when no distance is above 0
-  /// The least and the greatest of `values`, where there are some, and the least above 0 (0: none).
-  float smallest_value = 0, greatest_value = 0, smallest_positive = 0;
+  /// V: (distance - value_base) / value_unit, or kNoPictureValue; empty: no solve
+  std::vector<float> values;
+  double value_unit = 1;     ///< model units; the largest distance, 1 if there is none above 0, or
+                             ///< that of another frame
+  double value_base = 0;     ///< the least value of a field whose values have one sign, else 0
+  double largest_value = 0;  ///< in value_unit: 1, or 0 when no distance is above 0
+  /// The least and the greatest distance, where there are some, and the least above 0 (0: none).
+  double smallest_value = 0, greatest_value = 0, smallest_positive = 0;
   bool unreached = false;          ///< some corner of a face has no value
   bool is_signed = false;          ///< `values` run from -1 to 1: a difference
   bool is_field = false;           ///< `values` are no distances, and 0 is nothing special

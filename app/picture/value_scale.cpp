@@ -73,9 +73,9 @@ void set_linear_ends(const PictureData& data, const PictureSettings& settings,
     return;
   }
   const bool between = data.is_field && !data.is_signed;  // the values' own ends
-  const double least = data.smallest_value * data.value_unit;
+  const double least = data.smallest_value;
   scale.min = range_min.value_or(data.is_signed ? -usual : between ? least : 0);
-  scale.max = range_max.value_or(between ? data.greatest_value * data.value_unit : usual);
+  scale.max = range_max.value_or(between ? data.greatest_value : usual);
   if (settings.bands > 0 && !range_max && scale.max > scale.min) {
     double each = band_width(scale.max - scale.min, settings.bands);
     if (!range_min && data.is_signed) {
@@ -101,8 +101,9 @@ void set_linear_ends(const PictureData& data, const PictureSettings& settings,
 }
 
 void set_log_ends(const PictureData& data, const PictureSettings& settings, PictureScale& scale) {
-  const double largest = data.largest_value * data.value_unit;
-  const double smallest = data.smallest_positive * data.value_unit;
+  const double largest =
+      data.is_field ? data.greatest_value : data.largest_value * data.value_unit;
+  const double smallest = data.smallest_positive;
   const auto is_given = [](const std::optional<double>& end) { return end && *end > 0; };
   // Between numbers that begin with 1, 2 or 5, which are the marks as well.
   scale.max = is_given(settings.range_max) ? *settings.range_max
@@ -210,8 +211,8 @@ PictureScale picture_scale(const PictureData& data, const PictureSettings& setti
   const double slack = kSlackOfEnds * (scale.max - scale.min);
   // The distance 0 of sources has no place on a logarithmic scale, and nobody misses it there.
   const double low = scale.kind == ColourScale::kLog ? data.smallest_positive : data.smallest_value;
-  scale.below = low * data.value_unit < scale.min - slack;
-  scale.above = data.greatest_value * data.value_unit > scale.max + slack;
+  scale.below = low < scale.min - slack;
+  scale.above = data.greatest_value > scale.max + slack;
   return scale;
 }
 

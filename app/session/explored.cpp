@@ -195,6 +195,7 @@ void set_explored(PictureData& data, const Explored& explored, Shown shown, View
   data.tet_heat.clear();
   data.tet_gradients.clear();
   data.value_unit = 1;
+  data.value_base = 0;
   data.largest_value = 0;
   data.is_signed = false;
   data.nearest.clear();

@@ -68,6 +68,8 @@ struct SurfaceStyle {
   glm::vec3 colour{0.80F, 0.80F, 0.78F};  ///< kPlain, sRGB
   float range_min = 0, range_max = 1;     ///< values at the ends of the colour map
   bool log = false;                       ///< equal ratios of values are equally far apart
+  float log_offset = 0;                   ///< of what has the logarithm, less the value
+  int bands = 0;                          ///< of one colour, evenly over the map; 0: none
   float line_spacing = 0;                 ///< isolines at its multiples; 0: none
   std::vector<float> levels;              ///< isolines there instead, up to kMaxLevels
   float line_width = 1.4F;                ///< pixels

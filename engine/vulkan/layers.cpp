@@ -179,9 +179,11 @@ shared::Frame frame_uniforms(const Scene& scene, glm::vec2 origin, glm::vec2 ext
   frame.orthographic = scene.camera.orthographic ? 1 : 0;
   const float scale = has_isolines(surface) ? 1 / surface.line_spacing : 1;
   if (surface.log) {
-    const float low = std::log2(surface.range_min), octaves = std::log2(surface.range_max) - low;
+    const float low = std::log2(surface.range_min + surface.log_offset);
+    const float octaves = std::log2(surface.range_max + surface.log_offset) - low;
     const float per_octave = octaves != 0 ? 1 / octaves : 0;
-    frame.range = {per_octave, -(low + std::log2(scale)) * per_octave, scale, 0};
+    frame.range = {per_octave, -(low + std::log2(scale)) * per_octave, scale,
+                   surface.log_offset * scale};
   } else {
     const float per_width = width != 0 ? 1 / width : 0;
     frame.range = {per_width / scale, -surface.range_min * per_width, scale, 0};

@@ -54,11 +54,37 @@ PictureData field_on_a_face(const std::vector<double>& values) {
 
 TEST(FieldScale, OfOneSignRunsBetweenItsOwnEnds) {
   const PictureScale scale = app::picture_scale(field_on_a_face({100, 102, 101}), {});
-  EXPECT_NEAR(scale.min, 100, 1e-4);  // values are kept as floats
-  EXPECT_NEAR(scale.max, 102, 1e-4);
+  EXPECT_EQ(scale.min, 100);
+  EXPECT_EQ(scale.max, 102);
   ASSERT_GT(scale.levels.size(), 5U);
   EXPECT_GT(scale.levels.front(), 100);
   EXPECT_LT(scale.levels.back(), 102);
+}
+
+TEST(FieldScale, TellsValuesApartThatAreFarFromZero) {
+  const PictureData data = field_on_a_face({1e8, 1e8 + 1, 1e8 + 0.5});
+  EXPECT_EQ(data.values, (std::vector<float>{0, 1, 0.5F}));
+  const PictureScale scale = app::picture_scale(data, {});
+  EXPECT_EQ(scale.min, 1e8);
+  EXPECT_EQ(scale.max, 1e8 + 1);
+  EXPECT_EQ(scale.ticks.values.front(), 1e8) << "a mark at the lower end";
+  const auto style = app::scene_of(data, {}, scale).surface;
+  EXPECT_EQ(style.range_min, 0);
+  EXPECT_EQ(style.range_max, 1);
+  ASSERT_EQ(style.levels.size(), 19U);
+  for (std::size_t i = 0; i < 19; ++i) {
+    EXPECT_NEAR(style.levels[i], 0.05 * static_cast<double>(i + 1), 1e-6);
+  }
+}
+
+TEST(FieldScale, HasTheLogarithmOfTheValuesThemselves) {
+  PictureSettings settings;
+  settings.colour_scale = ColourScale::kLog;
+  const PictureData data = field_on_a_face({2, 18, 6});
+  const auto style = app::scene_of(data, settings, app::picture_scale(data, settings)).surface;
+  EXPECT_FLOAT_EQ(style.log_offset, 2.0F / 16);
+  EXPECT_FLOAT_EQ(style.range_min + style.log_offset, 2.0F / 16);
+  EXPECT_FLOAT_EQ(style.range_max + style.log_offset, 20.0F / 16);
 }
 
 TEST(FieldScale, OfBothSignsHasZeroInTheMiddleAndLinesBelowIt) {

@@ -185,7 +185,7 @@ class Page {
     const nearest = ids[hit.weights.indexOf(Math.max(...hit.weights))];
     const known = ids.every((v) => arrays.values[v] > 0.9 * NO_VALUE);
     let value = arrays.values.length === 0 ? null : !known ? NaN :
-      scene.value.unit * ids.reduce((sum, v, i) => sum + hit.weights[i] * arrays.values[v], 0);
+      scene.value.base + scene.value.unit * ids.reduce((sum, v, i) => sum + hit.weights[i] * arrays.values[v], 0);
     let title = scene.value.title;
     if (view.paint === 'faces') {
       const own = arrays.face_values[hit.face];
