@@ -60,7 +60,7 @@ struct Frame {
   vec4 marker_rim;   // colour, the radius within it as a share
   vec4 polyline;     // half the width, the same with the rim; the tile's first pixel
   vec4 sight;        // x and y at depth 1 before the eye = pixel * xy + zw; orthographic: 0
-  vec4 level_count;  // x: of the levels below; -
+  vec4 level_count;  // x: of the levels below; y: of bands of one colour, 0: none
   vec4 levels[kLevelVectors];
 };
 

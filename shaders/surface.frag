@@ -50,7 +50,11 @@ float three_points(vec3 n) {
 vec3 colour_number(int i) { return texelFetch(colours, i).rgb; }
 
 vec3 map_colour(float x) {
-  return colour_number(int(clamp(x, 0.0, 1.0) * float(kColourSteps - 1) + 0.5));
+  x = clamp(x, 0.0, 1.0);
+  float bands = frame.level_count.y;
+  // The middle of the band, whose border itself belongs to the band above.
+  if (bands > 0.0) x = (min(floor(x * bands + 1e-4), bands - 1.0) + 0.5) / bands;
+  return colour_number(int(x * float(kColourSteps - 1) + 0.5));
 }
 
 // On the colour map, 0 to 1 between its ends.

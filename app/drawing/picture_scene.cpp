@@ -74,6 +74,7 @@ engine::SurfaceStyle surface_of(const PictureData& data, const PictureSettings& 
   style.smooth = settings.view != View::kFlat;
   style.wire = settings.view == View::kWireframe;
   style.form = settings.shading == PictureShading::kForm;
+  style.bands = settings.bands;
   if (face_field(settings.view) && !data.face_values.empty()) {
     style.paint = engine::Paint::kFaces;
     style.range_max = static_cast<float>(scale.max);

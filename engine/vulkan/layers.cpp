@@ -189,7 +189,7 @@ shared::Frame frame_uniforms(const Scene& scene, glm::vec2 origin, glm::vec2 ext
     frame.range = {per_width / scale, -surface.range_min * per_width, scale, 0};
   }
   const std::size_t levels = std::min(surface.levels.size(), kMaxLevels);
-  frame.level_count.x = static_cast<float>(levels);
+  frame.level_count = {levels, surface.bands, 0, 0};
   for (std::size_t i = 0; i < levels; ++i) {
     frame.levels[i / 4][static_cast<int>(i % 4)] = surface.levels[i];
   }

@@ -75,6 +75,48 @@ INSTANTIATE_TEST_SUITE_P(All, SurfaceColours,
                                   (test.param.reversed ? "Reversed" : "");
                          });
 
+class ColourPlaces : public GpuTest {};
+
+TEST_F(ColourPlaces, OfBandsChangeAtTheirBordersAlone) {
+  constexpr int kBands = 11;
+  Stage stage(device(), plane_model(2, 2));
+  const auto values = stage.model.values([](const glm::vec3& p) { return 0.5F + 0.01F * p.x; });
+  stage.scene.surface.bands = kBands;
+  stage.paint(values);  // a band is hundreds of pixels wide
+  const ColourMap& map = colour_maps().front();
+  must(stage.renderer.set_colours(colour_table(map)));
+  for (const float max : {1.0F, 1.1F, 0.917F}) {  // the border at a few places
+    stage.scene.surface.range_max = max;
+    const Image image = stage.draw();
+    int compared = 0;
+    for (int x = 0; x < image.width; ++x) {
+      const auto seen = hit(stage.model, stage.scene.camera, x, 100);
+      if (!seen) continue;
+      const double in_bands = kBands * value_at(stage.model, values, *seen) / max;
+      if (std::abs(in_bands - std::round(in_bands)) < 1e-3) continue;
+      const auto middle = static_cast<float>((std::floor(in_bands) + 0.5) / kBands);
+      EXPECT_LE(difference(colour_at(image, x, 100), engine::colour_at(map, middle)),
+                kColourTolerance)
+          << x << " of " << max;
+      ++compared;
+    }
+    EXPECT_GE(compared, 50);
+  }
+}
+
+TEST_F(ColourPlaces, OfLogarithmsAreThoseOfTheValuesWithTheirOffset) {
+  Stage stage(device(), plane_model(2, 2));
+  const auto values = stage.model.values([](const glm::vec3& p) { return 4 + 2 * p.x + p.y; });
+  stage.scene.surface.log = true;
+  stage.paint(values, 1, 8);
+  const Image whole = stage.draw();
+  auto less = values;
+  for (float& value : less) value -= 1;
+  stage.scene.surface.log_offset = 1;
+  stage.paint(less, 0, 7);
+  EXPECT_EQ(different_pixels(whole, stage.draw(), 3), 0);
+}
+
 class Unreached : public GpuTest {};
 
 TEST_F(Unreached, IsNeutralGrey) {
