@@ -188,18 +188,29 @@ void note_figure(const RenderArguments& arguments, const PictureFigures& figures
   if (figures.settings.view == View::kExactError && arguments.check.no_check) {
     warnings.push_back({"--no-check is not used: --view exact-error shows what the check finds"});
   }
+  if (figures.settings.view == View::kExactError && figures.scale.coloured &&
+      figures.scale.kind != ColourScale::kDiverging) {
+    note({"range"}, "errors have a range on a diverging colour scale alone");
+  }
   if (!figures.settings.slice) note({"slice-at"}, "nothing is sliced");
   if (arguments.targets.empty()) note({"path-kind"}, "no --path is drawn");
   const PictureSettings& s = figures.settings;
-  // Small pictures for screens have no legend, and nobody asked for one.
-  if (s.text_size || s.paper) {
-    const std::vector<std::string> left_out = drawing.left_out(data, s);
-    if (!left_out.empty()) {
-      warnings.push_back({"there is no room for " + joined(left_out) + " at " +
-                              std::to_string(s.width) + " x " + std::to_string(s.height) +
-                              " pixels",
-                          {"give a smaller ", SettingHint{"text-size"}}});
-    }
+  // Small pictures for screens have no legend, and nobody asked for one, but for these words.
+  const bool sized = s.text_size || s.paper;
+  const bool words = !s.title.empty() || !s.bar_label.empty() || !s.units.empty();
+  std::vector<std::string> left_out;
+  if (!is_glb && (sized || words)) left_out = drawing.left_out(data, s);
+  std::erase_if(left_out, [&](const std::string& part) {
+    if (sized) return false;
+    return part == "the title" ? s.title.empty()
+                               : part != "the colour bar" || (s.bar_label + s.units).empty();
+  });
+  if (!left_out.empty()) {
+    const Hint larger = {"ask for a larger ", SettingHint{"size"}};
+    const Hint smaller = {"give a smaller ", SettingHint{"text-size"}};
+    warnings.push_back({"there is no room for " + joined(left_out) + " at " +
+                            std::to_string(s.width) + " x " + std::to_string(s.height) + " pixels",
+                        sized ? smaller : larger});
   }
   for (const auto& [name, text] : {std::pair<const char*, std::string>{"--title", s.title},
                                    {"--bar-label", s.bar_label},

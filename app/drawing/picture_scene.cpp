@@ -23,9 +23,6 @@ constexpr double kMaxLinesOnBar = 200;
 /// Colours that stand for those of all regions.
 constexpr std::size_t kMaxPatches = 6;
 
-/// Where there is no value (shaders/surface.frag).
-constexpr glm::vec3 kNoValue{0.62F};
-
 constexpr float kPaperOpacity = 0.75F;
 
 constexpr float kMarker = 6.5F, kLargeMarker = 9;  ///< of sources; in the view about them
@@ -107,17 +104,19 @@ std::vector<engine::Key> keys_of(const PictureData& data, const PictureSettings&
   if (shows_regions(data, settings)) {
     std::set<Index> groups(data.nearest.begin(), data.nearest.end());
     groups.erase(kNoIndex);
-    const std::size_t known = groups.size();
-    engine::Key key{.label = "nearest source (" + std::to_string(known) + ")"};
-    for (std::uint32_t i = 0; i < std::min(known, kMaxPatches); ++i) {
-      key.patches.push_back(engine::region_colour(i));
+    engine::Key key{.label = "nearest source (" + std::to_string(groups.size()) + ")"};
+    const std::vector<std::int32_t> all = region_places(data);
+    const std::set<std::int32_t> places(all.begin(), all.end());
+    for (const std::int32_t place : places) {
+      if (place < 0 || key.patches.size() == kMaxPatches) continue;
+      key.patches.push_back(engine::region_colour(static_cast<std::uint32_t>(place)));
     }
     keys.push_back(std::move(key));
   }
   const bool maps = maps_values(settings.view) && !data.values.empty();
   if ((maps || shows_regions(data, settings)) && data.unreached) {
     keys.push_back({.label = data.is_signed || data.is_field ? "no value" : "not reached",
-                    .patches = {kNoValue}});
+                    .patches = {engine::kNoValueColour}});
   }
   for (const PictureData::Line& line : data.lines) {
     if (!shows_line(settings, line.name)) continue;

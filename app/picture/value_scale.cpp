@@ -61,17 +61,17 @@ void set_linear_ends(const PictureData& data, const PictureSettings& settings,
                      PictureScale& scale) {
   const double largest = data.largest_value * data.value_unit;
   const double usual = largest > 0 ? largest : 1;
+  if (scale.kind == ColourScale::kDiverging) {  // both ends are as far as the farther one
+    const double end = std::max(-settings.range_min.value_or(0), settings.range_max.value_or(0));
+    scale.max = end > 0 ? end : round_number_above(usual);
+    scale.min = -scale.max;
+    return;
+  }
   // A range is one of distances: an error keeps its 0 in the middle of the map.
   const bool is_error = settings.view == View::kExactError;
   const std::optional<double> none;
   const std::optional<double>& range_min = is_error ? none : settings.range_min;
   const std::optional<double>& range_max = is_error ? none : settings.range_max;
-  if (scale.kind == ColourScale::kDiverging) {
-    const std::optional<double>& end = settings.range_max;
-    scale.max = end && *end > 0 ? *end : round_number_above(usual);
-    scale.min = -scale.max;
-    return;
-  }
   const bool between = data.is_field && !data.is_signed;  // the values' own ends
   const double least = data.smallest_value;
   scale.min = range_min.value_or(data.is_signed ? -usual : between ? least : 0);
@@ -101,8 +101,7 @@ void set_linear_ends(const PictureData& data, const PictureSettings& settings,
 }
 
 void set_log_ends(const PictureData& data, const PictureSettings& settings, PictureScale& scale) {
-  const double largest =
-      data.is_field ? data.greatest_value : data.largest_value * data.value_unit;
+  const double largest = data.is_field ? data.greatest_value : data.largest_value * data.value_unit;
   const double smallest = data.smallest_positive;
   const auto is_given = [](const std::optional<double>& end) { return end && *end > 0; };
   // Between numbers that begin with 1, 2 or 5, which are the marks as well.

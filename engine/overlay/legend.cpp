@@ -132,7 +132,16 @@ float draw_bar_and_keys(const Legend& legend, const Measures& m, glm::vec2 exten
 LegendLayout lay_out(const Legend& legend, glm::vec2 extent) {
   LegendLayout layout;
   const float side = std::min(extent.x, extent.y);
-  if (!std::isfinite(extent.x + extent.y) || side < kSmallestForCaption) return layout;
+  if (!std::isfinite(extent.x + extent.y) || side < kSmallestForCaption) {
+    const auto leave_out = [&](bool wanted, const char* part) {
+      if (wanted) layout.left_out.emplace_back(part);
+    };
+    leave_out(!legend.caption.empty(), "the caption");
+    leave_out(!legend.heading.empty(), "the title");
+    leave_out(legend.bar && legend.colours.size() >= 2, "the colour bar");
+    leave_out(!legend.keys.empty(), "the keys of the colours");
+    return layout;
+  }
   const Measures m = measures_of(legend, extent);
   Overlay& overlay = layout.overlay;
   overlay.atlas = atlas_of(legend, m.line);

@@ -183,6 +183,10 @@ TEST(DivergingScale, HasZeroInTheMiddleAndRoundEnds) {
   EXPECT_EQ(app::picture_scale(data, settings).min, -0.01);
   EXPECT_TRUE(app::picture_scale(data, settings).below);
   EXPECT_FALSE(app::picture_scale(data, settings).above);
+  settings.range_min = -0.5;
+  EXPECT_EQ(app::picture_scale(data, settings).max, 0.5) << "the farther end is that of both";
+  settings.range_max.reset();
+  EXPECT_EQ(app::picture_scale(data, settings).max, 0.5);
 }
 
 TEST(Bands, AreAsManyColoursWithRoundNumbersBetweenThem) {

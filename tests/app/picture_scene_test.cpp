@@ -232,7 +232,9 @@ TEST(PictureLegend, SaysHowManyRegionsThereAre) {
   EXPECT_FALSE(legend.bar);
   ASSERT_EQ(legend.keys.size(), 1U);
   EXPECT_EQ(legend.keys[0].label, "nearest source (3)");
-  EXPECT_EQ(legend.keys[0].patches.size(), 3U);
+  const std::vector<glm::vec3> drawn = {engine::region_colour(0), engine::region_colour(3),
+                                        engine::region_colour(7)};
+  EXPECT_EQ(legend.keys[0].patches, drawn);
   data.unreached = true;
   const auto keys = app::legend_of(data, settings, scale).keys;
   ASSERT_EQ(keys.size(), 2U) << "what is grey is said";

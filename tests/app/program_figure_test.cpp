@@ -167,6 +167,16 @@ TEST_F(ProgramFigure, SaysWhatIsNotUsedAndWhatCannotBeWritten) {
   EXPECT_NE(regions.find("--bands is not used: each region has a colour"), std::string::npos);
   const std::string error = said({"-s", "17", "--view", "exact-error", "--no-check"});
   EXPECT_NE(error.find("--no-check is not used: --view exact-error"), std::string::npos) << error;
+  EXPECT_TRUE(unused("exact-error", {"--range", "0:1"}));
+  EXPECT_FALSE(unused("exact-error", {"--range", "0:1", "--colour-scale", "diverging"}));
+  EXPECT_NE(said({"-s", "17", "--units", "mm"}).find("no room for the colour bar at 200 x 150"),
+            std::string::npos);
+  const std::string small =
+      run({"render", "bunny", "--view", "smooth", "--title", "a", "--size", "80x80", "-o", "a.png"})
+          .err;
+  EXPECT_NE(small.find("no room for the title at 80 x 80 pixels; ask for a larger --size"),
+            std::string::npos)
+      << small;
 }
 
 TEST_F(ProgramFigure, HasItsSizeOnPaper) {

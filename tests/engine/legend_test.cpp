@@ -238,6 +238,9 @@ TEST(Legend, SaysWhatHasNoRoom) {
   legend.line_height = 300;
   const LegendLayout layout = lay_out(legend, {960, 720});
   EXPECT_EQ(layout.left_out, (std::vector<std::string>{"the caption", "the colour bar"}));
+  legend.heading = "a title";
+  EXPECT_EQ(lay_out(legend, {80, 80}).left_out,
+            (std::vector<std::string>{"the caption", "the title", "the colour bar"}));
 }
 
 TEST(Legend, CutsACaptionThatIsTooLong) {
