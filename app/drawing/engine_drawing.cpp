@@ -111,7 +111,7 @@ class EngineDrawing final : public Drawing {
     if (!renderer_ || samples_ != settings.samples) {
       renderer_.reset();
       auto renderer = engine::Renderer::build(*device_, settings.samples);
-      if (!renderer) return renderer.error();
+      if (!renderer) return closed_if_lost(renderer.error());
       renderer_ = *std::move(renderer);
       samples_ = settings.samples;
     }
@@ -126,7 +126,9 @@ class EngineDrawing final : public Drawing {
     if (is_cut(data, settings)) cut = cut_picture(data, settings);
     const PictureData& shown = cut ? cut->data : data;
     const std::vector<glm::vec3> places = cut ? scene_vectors(shown.positions) : positions;
-    if (auto done = upload_picture(*renderer_, shown, settings, places); !done) return done;
+    if (auto done = upload_picture(*renderer_, shown, settings, places); !done) {
+      return closed_if_lost(done.error());
+    }
     const PictureScale scale = picture_scale(data, settings);
     const glm::vec2 extent(settings.width, settings.height);
     const engine::LegendLayout layout = engine::lay_out(legend_of(data, settings, scale), extent);
@@ -148,10 +150,7 @@ class EngineDrawing final : public Drawing {
       }
       auto image = shapes ? engine::draw_picture(*device_, *renderer_, FigureShapes::rest_of(scene))
                           : engine::draw_picture(*device_, *renderer_, scene, layout.overlay);
-      if (!image) {
-        if (image.error().code == ErrorCode::kNoDevice) close();  // lost: the next is another one
-        return image.error();
-      }
+      if (!image) return closed_if_lost(image.error());
       const DrawnPicture picture{image->width, image->height, std::move(image->pixels),
                                  std::move(figure)};
       if (auto taken = frame(i, picture); !taken) return taken;
@@ -165,10 +164,7 @@ class EngineDrawing final : public Drawing {
     if (!renderer_) return Error{ErrorCode::kNoDevice, "no device has been opened to draw on"};
     for (int i = 0; i < frame_count(settings); ++i) {
       auto picture = draw_table(cells, columns, settings, i, as);
-      if (!picture) {
-        if (picture.error().code == ErrorCode::kNoDevice) close();
-        return picture.error();
-      }
+      if (!picture) return closed_if_lost(picture.error());
       if (auto taken = frame(i, *picture); !taken) return taken;
     }
     return {};
@@ -271,6 +267,12 @@ class EngineDrawing final : public Drawing {
   void close() {
     renderer_.reset();  // before the device that it draws on
     device_.reset();
+  }
+
+  /// The same error. A device that was lost does not come back: the next picture opens one anew.
+  Error closed_if_lost(const Error& error) {
+    if (error.code == ErrorCode::kNoDevice) close();
+    return error;
   }
 
   Result<void> open_device(const std::string& name) {
