@@ -50,9 +50,6 @@ PictureData words_about(const std::vector<PictureData>& cells) {
   return words;
 }
 
-/// The height of a line of letters, in pixels, that suits a picture of this size.
-float usual_line(glm::vec2 extent) { return std::max(13.0F, std::min(extent.x, extent.y) / 38); }
-
 class EngineDrawing final : public Drawing {
  public:
   std::vector<std::string> colour_maps() const override {
@@ -234,7 +231,7 @@ class EngineDrawing final : public Drawing {
       if (auto done = upload_picture(*renderer_, shown, one, places); !done) return done.error();
       const PictureScale own = picture_scale(cells[k], one);  // the same, without a bar
       engine::Legend label = legend_of(cells[k], one, own);
-      if (label.line_height <= 0) label.line_height = usual_line(extent);
+      if (label.line_height <= 0) label.line_height = engine::usual_line(extent);
       const engine::LegendLayout below = engine::lay_out(label, room);
       engine::Scene scene = scene_of(cells[k], one, own);
       scene.camera =

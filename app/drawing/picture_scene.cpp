@@ -216,8 +216,8 @@ engine::Scene scene_of(const PictureData& data, const PictureSettings& settings,
   const auto side = static_cast<float>(std::min(settings.width, settings.height));
   scene.pixel_scale = std::max(side / kUsualSide, kMinScale);
   // Beside large letters, which are read from farther away or on finer pixels.
-  constexpr float kUsualLine = kUsualSide / 38;
-  const float letters = line_height_of(settings) / (kUsualLine * scene.pixel_scale);
+  const glm::vec2 extent(settings.width, settings.height);
+  const float letters = line_height_of(settings) / engine::usual_line(extent);
   scene.markers.radius *= std::max(1.0F, letters);
   const float wider = line_factor(settings, scene.surface.line_width * scene.pixel_scale);
   for (float* width : {&scene.surface.line_width, &scene.surface.wire_width, &scene.lines.width,

@@ -15,8 +15,7 @@ constexpr float kSmallestForCaption = 90;
 constexpr float kSwatch = 1.6F, kKeyOffset = 1.3F * kSwatch;
 
 Measures measures_of(const Legend& legend, glm::vec2 extent) {
-  // A line is 1/38 of the smaller side: 19 pixels of 720. Letters below 13 are hard to read.
-  const float line = std::max(13.0F, std::min(extent.x, extent.y) / 38);
+  const float line = usual_line(extent);
   const float scale = legend.scale;
   const float scaled = std::isfinite(scale) && scale > 0 ? line * scale : line;
   const float used = legend.line_height > 0 ? legend.line_height : scaled;
@@ -128,6 +127,11 @@ float draw_bar_and_keys(const Legend& legend, const Measures& m, glm::vec2 exten
 }
 
 }  // namespace
+
+float usual_line(glm::vec2 extent) {
+  // 19 pixels of 720; letters below 13 are hard to read.
+  return std::max(13.0F, std::min(extent.x, extent.y) / 38);
+}
 
 LegendLayout lay_out(const Legend& legend, glm::vec2 extent) {
   LegendLayout layout;

@@ -143,6 +143,9 @@ struct LegendLayout {
   std::vector<std::string> left_out{};  ///< parts of the legend that have no room
 };
 
+/// The height of a line of letters, in pixels, that suits a picture of this size.
+float usual_line(glm::vec2 extent);
+
 /// Lays the legend out for a picture of this size. Letters grow with the smaller side of the
 /// picture. The bar is a column at the right side, or a row along the lower edge of what is higher
 /// than wide, or the other one where that has no room; ticks whose labels would touch are thinned

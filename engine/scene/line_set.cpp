@@ -88,12 +88,6 @@ void mark_needed(std::span<const glm::vec3> points, std::size_t first, std::size
   }
 }
 
-/// Scene units of a pixel where a point of the lines is nearest to the eye.
-float smallest_pixel(const Camera& camera, float nearest) {
-  const float per_unit = 0.5F * camera.extent.y * std::abs(camera.projection[1][1]);
-  return nearest / std::max(per_unit, 1.0F);
-}
-
 }  // namespace
 
 std::vector<glm::vec3> simplified(std::span<const glm::vec3> points, float tolerance) {
@@ -130,7 +124,8 @@ bool LineSet::fit(const Camera& camera) {
     }
   }
   if (lines_.empty()) nearest = 1;
-  const float tolerance = kTolerance * smallest_pixel(camera, nearest);
+  const float smallest_pixel = nearest / std::max(camera.pixels_per_unit, 1.0F);  // scene units
+  const float tolerance = kTolerance * smallest_pixel;
   const int level = static_cast<int>(std::floor(std::log2(std::max(tolerance, 1e-12F))));
   if (level_ == level) return false;
   std::vector<LinePiece> pieces;
