@@ -157,9 +157,8 @@ bool GridLattice::passes(const std::array<Index, 3>& cell_at, const GridPlace& w
       is_there = is_there && !(before && way[e] != 0) && at >= 0 && at + 1 < length_[e];
       lowest += at * stride_[e];
     }
-    if (is_there && has_cell(lowest) && is_same_slowness(cell(lowest).slowness, slowness)) {
-      return true;
-    }
+    if (!is_there || !has_cell(lowest)) continue;
+    if (one_speed_ || is_same_slowness(cell(lowest).slowness, slowness)) return true;
   }
   return false;
 }

@@ -113,9 +113,9 @@ class GridMarch {
                  const Offer& most) const;
   void see_those_of_neighbors(Index v);
   bool see(Index v, Index source, bool follows);
-  bool is_beside_sight(Index v) const;
   Corners corners_at(const GridPlace& at, int main, Index source, bool wants_some) const;
-  bool is_in_sight(const GridPlace& at, const GridPlace& way, int main, Index source) const;
+  bool is_in_sight(const GridPlace& at, const GridPlace& way, int main, Index source,
+                   double samples) const;
 
   const GridLattice& lattice_;
   const Grid& grid_;

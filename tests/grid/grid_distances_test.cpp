@@ -271,6 +271,38 @@ TEST(GridMethods, AxesOfOtherSpacingAndBackwardsAreMeasured) {
   }
 }
 
+/// A grid of one speed with walls at these places.
+Grid with_walls(Index width, Index height, const std::vector<std::array<Index, 3>>& walls) {
+  Grid grid{{width, height, 1}, {1, 1, 1}, Vec3::Zero(), {}};
+  grid.speeds.assign(static_cast<std::size_t>(width * height), 1.0);
+  for (const auto& wall : walls) grid.speeds[grid.number(wall)] = 0;
+  return grid;
+}
+
+TEST(GridMarching, ASourceSeenBetweenTwoWallsIsAsFarAsTheStraightLine) {
+  // The line touches both walls' squares at (2, 1), and no sample beside the target sees the
+  // source.
+  const Grid touched = with_walls(5, 3, {{1, 0, 0}, {3, 2, 0}});
+  // The line from (8, 5) runs between (3, 2) and (5, 3), which the squares of walls touch.
+  const Grid between = with_walls(9, 6, {{2, 3, 0}, {6, 2, 0}});
+  const auto distance = [](const Grid& grid, Index source, Index target) {
+    return distances_in(grid, SourceSet::of_vertices({source}), MethodKind::kFastMarching)[target];
+  };
+  EXPECT_NEAR(distance(touched, touched.number({4, 0, 0}), touched.number({0, 2, 0})),
+              std::sqrt(20.0), 1e-12);
+  EXPECT_NEAR(distance(between, 0, between.number({8, 5, 0})), std::sqrt(89.0), 1e-12);
+}
+
+TEST(GridMarching, NothingIsNearerThanTheStraightLine) {
+  const Grid grid = with_walls(6, 8, {{3, 4, 0}, {0, 5, 0}});
+  const Index source = grid.number({4, 7, 0});
+  const auto found =
+      distances_in(grid, SourceSet::of_vertices({source}), MethodKind::kFastMarching);
+  for (Index v = 0; v < grid.sample_count(); ++v) {
+    EXPECT_GE(found[v], (grid.position(v) - grid.position(source)).norm() - 1e-12) << v;
+  }
+}
+
 TEST(GridMethods, NearestSourcesAreThoseOfTheStraightLine) {
   const Grid grid = square(33);
   MethodOptions options;
