@@ -48,6 +48,14 @@ std::optional<ExplorePart> changed_part(const Command& command) {
   return {};
 }
 
+/// Whether it says from where the model is seen.
+bool says_from_where(const Command& command) {
+  if (const auto* set = std::get_if<command::Set>(&command)) {
+    return set->name == "azimuth" || set->name == "elevation";
+  }
+  return is_any_of<command::Orbit, command::Place, command::Reset>(command);
+}
+
 bool same_but_camera(const ViewerState& a, ViewerState b) {
   b.picture.camera = a.picture.camera;
   b.rotating = a.rotating;
@@ -180,7 +188,9 @@ Result<void> Session::State::perform(const Command& command, const Session& sess
     undo.clear();
     redo.clear();
     last_undoable.reset();
+    is_turned = false;
   }
+  is_turned = is_turned || says_from_where(command);
   if (undo_rule(command).undoable && *next != state) {
     if (!last_undoable || !continues(*last_undoable, command)) undo.push_back(state);
     if (undo.size() > kMaxUndo) undo.erase(undo.begin());

@@ -132,9 +132,16 @@ std::string size_seen(const ViewerState& state, const SessionHooks& hooks) {
   return text.empty() ? text : kSeenLine + ('\n' + text);
 }
 
-std::string session_text(const ViewerState& state) {
+/// `is_placed`: said from where it is seen, also where that is as usual.
+std::string session_text(const ViewerState& state, bool is_placed) {
   std::string text = script_head() + to_text(command::Reset{}) + '\n';
   for (const Command& command : commands_to(state)) text += to_text(command) + '\n';
+  const CameraSettings& camera = state.picture.camera;
+  if (is_placed && is_seen_as_usual(camera)) {
+    text += to_text(command::Place{camera.azimuth, camera.elevation, camera.zoom, camera.pan_right,
+                                   camera.pan_up}) +
+            '\n';
+  }
   return text;
 }
 
@@ -190,7 +197,11 @@ Result<void> Session::State::save(const Command& command, const Session& session
   } else if (const auto* figures = std::get_if<command::SaveFigures>(&command)) {
     done = save_figures(*figures, session);
   } else if (std::holds_alternative<command::SaveSession>(command)) {
-    done = write_text(state, path, "save session", session_text(state) + size_seen(state, hooks));
+    // A grid would be turned head-on when it opens.
+    const bool is_placed =
+        before_opening ? is_turned : explored.model && head_on(explored.model->model);
+    done = write_text(state, path, "save session",
+                      session_text(state, is_placed) + size_seen(state, hooks));
   } else if (std::holds_alternative<command::SaveLog>(command)) {
     done = write_text(state, path, "save log",
                       script_head() + commands.script() + size_seen(state, hooks));

@@ -63,6 +63,12 @@ class Worker {
 /// What takes long of a save. Needs nothing of the session any more, and stops as work does.
 using Writing = std::function<Result<void>(const Progress& progress)>;
 
+/// Whether it looks from where every model is seen at first.
+inline bool is_seen_as_usual(const CameraSettings& camera) {
+  const CameraSettings usual;
+  return camera.azimuth == usual.azimuth && camera.elevation == usual.elevation;
+}
+
 struct Session::State {
   explicit State(SessionHooks given) : hooks(std::move(given)) {}
 
@@ -156,6 +162,8 @@ struct Session::State {
     std::vector<ViewerState> undo, redo;
   };
   std::optional<Before> before_opening;  ///< while it is not known whether the model opens
+  /// A command has said from where the model is seen, since it was opened.
+  bool is_turned = false;
   bool dragging = false, quits = false;
 
   std::optional<ExploreRequest> requested;  ///< the last that was started

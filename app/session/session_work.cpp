@@ -192,8 +192,7 @@ void Session::State::note_model(const ExploredModel& before) {
 void Session::State::look_head_on() {
   const auto angles = head_on(explored.model->model);
   const CameraSettings& camera = state.picture.camera;
-  const CameraSettings usual;
-  if (!angles || camera.azimuth != usual.azimuth || camera.elevation != usual.elevation) return;
+  if (!angles || is_turned || !is_seen_as_usual(camera)) return;
   const command::Place place{(*angles)[0], (*angles)[1], camera.zoom, camera.pan_right,
                              camera.pan_up};
   state = *app::apply(state, place);

@@ -41,6 +41,25 @@ TEST_F(SessionOnGrid, ASheetIsSeenHeadOnUnlessItWasTurned) {
   EXPECT_EQ(camera(), initial_state().picture.camera);
 }
 
+TEST_F(SessionOnGrid, ASheetThatWasTurnedBackIsSeenSoWhenReplayed) {
+  const std::string opened = "open " + grid("sheet.vti", {30, 20, 1}, 1);
+  const CameraSettings usual = initial_state().picture.camera;
+  for (const std::string turned : {"camera place 30 20 1 0 0", "reset"}) {
+    const std::string name = folder() + turned.substr(0, 5);
+    Session first;
+    for (const std::string& line : {opened, turned, "save log " + name + "_l.geotherm",
+                                    "save session " + name + "_s.geotherm"}) {
+      ASSERT_TRUE(first.submit(*parse_command(line))) << line;
+    }
+    EXPECT_EQ(first.state().picture.camera, usual);
+    for (const char* kind : {"_l.geotherm", "_s.geotherm"}) {
+      Session again;
+      ASSERT_TRUE(again.submit(command::Run{name + kind}));
+      EXPECT_EQ(again.state().picture.camera, usual) << turned << kind;
+    }
+  }
+}
+
 TEST_F(SessionOnGrid, ErrorsOfTheViewAreThoseOfTheCells) {
   constexpr double kSpeed = 2;
   run({"open " + grid("fast.vti", {30, 20, 1}, kSpeed), "check off", "source set 0",
