@@ -26,6 +26,17 @@ TEST(NrrdHeader, HasTheSameMeaningInCapitals) {
   EXPECT_EQ(file->grid.speeds, (std::vector<double>{1, 2, 0, 3, 4, 256}));
 }
 
+TEST(NrrdHeader, SpacingsThatAreNotKnownAreOne) {
+  const TemporaryDirectory directory;
+  for (const std::string header :
+       {kBytesHeader + "spacings: nan nan\n",
+        std::string("NRRD0004\ntype: uint8\ndimension: 3\nspacings: nan 1 1\nsizes: 1 3 2\n")}) {
+    const auto file = read_grid(directory.write("a.nrrd", header + "encoding: raw\n\n123456"));
+    ASSERT_TRUE(file) << sentence(file.error());
+    EXPECT_EQ(file->grid.spacing, (std::array<double, 3>{1, 1, 1})) << header;
+  }
+}
+
 struct NrrdDamage {
   std::string name, bytes, message;
 };
@@ -45,6 +56,9 @@ std::vector<NrrdDamage> nrrd_damages() {
        "line 4: there are 2 sizes, and the dimension is 3; give a size for each axis"},
       {"spacings", kBytesHeader + "spacings: 0.5\n\n123456",
        "line 5: there are 2 sizes, but this is said of 1 axis"},
+      {"spacing_unknown", kBytesHeader + "spacings: nan 2\n\n123456",
+       "line 5: the spacing along one axis is nan, and that along another is not; give all of "
+       "them"},
       {"directions", kBytesHeader + "space directions: (1,0,0) (0,1,0) (0,0,1)\n\n123456",
        "line 5: there are 2 sizes, but this is said of 3 axes"},
       {"elsewhere", kBytesHeader + "data file: /etc/passwd\n",

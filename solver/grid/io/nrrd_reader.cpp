@@ -92,6 +92,7 @@ class NrrdHeaderReader {
     header_.data_begins = std::min(at_, text_.size());
     if (!typed_ || sizes_.count == 0) throw ReadFailure{"the header has no type or no sizes"};
     check_axes();
+    check_spacings();
     check_order();
     check_kinds();
     return std::move(header_);
@@ -149,11 +150,7 @@ class NrrdHeaderReader {
       ordered_ = true;
     } else if (field == "spacings") {
       spacings_ = {value, 0};
-      for (double each : reals(value, 3)) {
-        std::size_t& e = spacings_.count;
-        if (!std::isnan(each)) header_.grid.spacing[e] = each;  // nan: not known
-        ++e;
-      }
+      for (double each : reals(value, 3)) header_.grid.spacing[spacings_.count++] = each;
     } else if (field == "space directions") {
       read_directions(value);
     } else if (field == "space origin") {
@@ -198,6 +195,19 @@ class NrrdHeaderReader {
       fail(each.text, "there are " + counted_text(sizes_.count, "size", "sizes") +
                           ", but this is said of " + counted_text(each.count, "axis", "axes"));
     }
+  }
+
+  /// A spacing that is not known is nan; where none is known, all are 1.
+  void check_spacings() {
+    bool known = false, unknown = false;
+    for (std::size_t e = 0; e < 3; ++e) {
+      double& spacing = header_.grid.spacing[e];
+      if (header_.grid.size[e] > 1) (std::isnan(spacing) ? unknown : known) = true;
+      if (std::isnan(spacing)) spacing = 1;
+    }
+    if (!known || !unknown) return;
+    fail(spacings_.text, "the spacing along one axis is nan, and that along another is not",
+         {"give all of them"});
   }
 
   void check_order() const {
