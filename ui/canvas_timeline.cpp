@@ -68,13 +68,17 @@ float draw_timeline(Frame& frame) {
     draw_action(frame, entry.key, entry.label, entry.action, entry.tip, frame.px(sign ? 30 : 58));
     ImGui::SameLine();
   }
-  const std::string last = " / " + std::to_string(frames - 1);
-  const float close = ImGui::GetFrameHeight(), gap = ImGui::GetStyle().ItemSpacing.x;
-  const float room = ImGui::GetContentRegionAvail().x - close - gap;
-  ImGui::SetNextItemWidth(room);
   int shown = std::min(timeline.frame, frames - 1);
-  const std::string format = "%d" + last;
-  if (ImGui::SliderInt("##frame", &shown, 0, frames - 1, format.c_str(),
+  const std::string last = std::to_string(frames - 1);
+  const float close = ImGui::GetFrameHeight(), gap = ImGui::GetStyle().ItemSpacing.x;
+  const float widest = ImGui::CalcTextSize((last + " / " + last).c_str()).x;
+  const float begin = ImGui::GetCursorPosX();
+  ImGui::AlignTextToFramePadding();
+  ImGui::TextUnformatted((std::to_string(shown) + " / " + last).c_str());
+  frame.mark("number");
+  ImGui::SameLine(begin + widest + gap);  // it stays where it is while the number grows
+  ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x - close - gap);
+  if (ImGui::SliderInt("##frame", &shown, 0, frames - 1, "",
                        ImGuiSliderFlags_AlwaysClamp | ImGuiSliderFlags_NoInput) &&
       shown != timeline.frame) {
     frame.send(app::command::ShowFrame{shown});

@@ -185,6 +185,16 @@ TEST_F(TimelineBar, LeavesRoomForWhatIsSaid) {
   EXPECT_LT(close->y + close->height, bar->y);
 }
 
+TEST_F(TimelineBar, SaysTheFrameBesideTheSlider) {
+  const auto number = panels_->place_of_item("Timeline/number");
+  const auto slider = panels_->place_of_item("Timeline/frame");
+  ASSERT_TRUE(number && slider);
+  EXPECT_LT(number->x + number->width, slider->x) << "its grab would cover the number";
+  run("frame " + std::to_string(kFrames - 1));
+  frames(2);
+  EXPECT_EQ(panels_->place_of_item("Timeline/frame")->x, slider->x);
+}
+
 TEST_F(TimelineBar, ScrubsAndCloses) {
   const ImVec2 middle = middle_of("Timeline/frame");
   drag(middle, {middle.x + 4000, middle.y});
