@@ -36,7 +36,8 @@ Result<void> refuse_other_pictures(const RenderArguments& arguments, const Asked
                   {"leave one of them out"});
   }
   if (!arguments.max_distance.empty()) {
-    return refuse("--max-distance", "whose scale is that of the first frame", {"leave one of them out"});
+    return refuse("--max-distance", "whose scale is that of the first frame",
+                  {"leave one of them out"});
   }
   if (!arguments.targets.empty()) {
     return refuse("--path", "which draws distances alone", {"leave one of them out"});
