@@ -67,7 +67,8 @@ function(geotherm_compile_together name)
 endfunction()
 
 # geotherm_compile_lightly(TARGET): for what reads options, prints, draws and lays out panels: -O3 would
-# take half as long again to compile, and a picture of a million faces is there 2 to 5 % sooner with it.
+# take half as long again to compile, and a picture of a million faces is there 2 to 5 % sooner with it;
+# where it is debugged, -Og takes a fifth less than -O1.
 function(geotherm_compile_lightly name)
-  target_compile_options(${name} PRIVATE $<$<CONFIG:Release>:-O1>)
+  target_compile_options(${name} PRIVATE $<IF:$<CONFIG:Release>,-O1,-Og>)
 endfunction()
