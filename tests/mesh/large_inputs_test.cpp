@@ -53,16 +53,16 @@ std::string ply_polygons(int teeth) {
   return text + repeated(face + '\n', kFaces);
 }
 
-struct Case {
+struct InputCase {
   const char* file;
   const char* name;
   int count;  ///< so that reading takes some milliseconds
   std::function<std::string(int count)> text;
 };
 
-void PrintTo(const Case& c, std::ostream* out) { *out << c.name; }
+void PrintTo(const InputCase& c, std::ostream* out) { *out << c.name; }
 
-class LargeInput : public testing::TestWithParam<Case> {
+class LargeInput : public testing::TestWithParam<InputCase> {
  protected:
   /// Seconds of the processor, the least of some runs: other programs do not count.
   static double seconds(int count) {
@@ -88,45 +88,46 @@ TEST_P(LargeInput, TakesTimeInProportionToItsSize) {
 INSTANTIATE_TEST_SUITE_P(
     OneThing, LargeInput,
     testing::Values(
-        Case{"a.ply", "PlyElements", 6000, ply_elements},
-        Case{"a.ply", "PlyProperties", 6000, ply_properties},
-        Case{"a.ply", "PlyComments", 20000,
-             [](int n) { return kPly + repeated("comment x\n", n) + kPlyTriangle; }},
-        Case{"a.ply", "PlyPolygons", 16, ply_polygons},
-        Case{"a.obj", "ObjGroups", 20000,
-             [](int n) { return kObjTriangle + repeated("g a\nusemtl b\n", n) + "f 1 2 3\n"; }},
-        Case{"a.obj", "ObjRelativeFaces", 10000,
-             [](int n) { return repeated(std::string(kObjTriangle) + "f -1 -2 -3\n", n); }},
-        Case{"a.obj", "ObjContinuedLines", 50000,
-             [](int n) { return kObjTriangle + ("f 1 2 " + repeated("\\\n", n)) + "3\n"; }},
-        Case{"a.obj", "ObjContinuedComments", 100000,
-             [](int n) { return repeated("# \\\n", n) + kObjTriangle + "f 1 2 3\n"; }},
-        Case{"a.obj", "ObjSlashes", 100000,
-             [](int n) { return kObjTriangle + ("f 1" + repeated("/1", n)) + " 2 3\n"; }},
-        Case{"a.obj", "ObjDigits", 100000,
-             [](int n) {
-               return "v 0." + repeated("1", n) + " 0 0\n" + kObjTriangle + "f 1 2 3\n";
-             }},
-        Case{"a.off", "OffFaces", 20000,
-             [](int n) {
-               return "OFF\n3 " + std::to_string(n) + " 0\n" + kOffVertices +
-                      repeated("3 0 1 2\n", n);
-             }},
-        Case{"a.off", "OffComments", 50000,
-             [](int n) {
-               return "OFF\n" + repeated("# a\n", n) + "3 1 0\n" + kOffVertices + "3 0 1 2\n";
-             }},
-        Case{"a.stl", "StlSolids", 10000,
-             [](int n) { return repeated("solid x\nendsolid x\n", n); }},
-        Case{"a.stl", "StlFacets", 2000,
-             [](int n) {
-               return "solid x\n" +
-                      repeated(
-                          "facet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\n"
-                          "vertex 0 1 0\nendloop\nendfacet\n",
-                          n) +
-                      "endsolid x\n";
-             }}),
+        InputCase{"a.ply", "PlyElements", 6000, ply_elements},
+        InputCase{"a.ply", "PlyProperties", 6000, ply_properties},
+        InputCase{"a.ply", "PlyComments", 20000,
+                  [](int n) { return kPly + repeated("comment x\n", n) + kPlyTriangle; }},
+        InputCase{"a.ply", "PlyPolygons", 16, ply_polygons},
+        InputCase{
+            "a.obj", "ObjGroups", 20000,
+            [](int n) { return kObjTriangle + repeated("g a\nusemtl b\n", n) + "f 1 2 3\n"; }},
+        InputCase{"a.obj", "ObjRelativeFaces", 10000,
+                  [](int n) { return repeated(std::string(kObjTriangle) + "f -1 -2 -3\n", n); }},
+        InputCase{"a.obj", "ObjContinuedLines", 50000,
+                  [](int n) { return kObjTriangle + ("f 1 2 " + repeated("\\\n", n)) + "3\n"; }},
+        InputCase{"a.obj", "ObjContinuedComments", 100000,
+                  [](int n) { return repeated("# \\\n", n) + kObjTriangle + "f 1 2 3\n"; }},
+        InputCase{"a.obj", "ObjSlashes", 100000,
+                  [](int n) { return kObjTriangle + ("f 1" + repeated("/1", n)) + " 2 3\n"; }},
+        InputCase{"a.obj", "ObjDigits", 100000,
+                  [](int n) {
+                    return "v 0." + repeated("1", n) + " 0 0\n" + kObjTriangle + "f 1 2 3\n";
+                  }},
+        InputCase{"a.off", "OffFaces", 20000,
+                  [](int n) {
+                    return "OFF\n3 " + std::to_string(n) + " 0\n" + kOffVertices +
+                           repeated("3 0 1 2\n", n);
+                  }},
+        InputCase{"a.off", "OffComments", 50000,
+                  [](int n) {
+                    return "OFF\n" + repeated("# a\n", n) + "3 1 0\n" + kOffVertices + "3 0 1 2\n";
+                  }},
+        InputCase{"a.stl", "StlSolids", 10000,
+                  [](int n) { return repeated("solid x\nendsolid x\n", n); }},
+        InputCase{"a.stl", "StlFacets", 2000,
+                  [](int n) {
+                    return "solid x\n" +
+                           repeated(
+                               "facet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\n"
+                               "vertex 0 1 0\nendloop\nendfacet\n",
+                               n) +
+                           "endsolid x\n";
+                  }}),
     [](const auto& test) { return std::string(test.param.name); });
 
 }  // namespace
