@@ -200,9 +200,11 @@ class Resolver {
   ResolvedSources finish() { return {set_.take(), std::exchange(warnings_, {})}; }
 
  private:
-  /// The first place is looked for among all faces, further ones by a tree over them.
+  /// The first few places are looked for among all faces, further ones by a tree over them, which
+  /// takes about as long to make as that many searches.
   Result<ClosestPoint> closest_to(const Vec3& place) {
-    if (places_ == 1) return closest_point(mesh_, place);
+    constexpr std::size_t kFew = 8;
+    if (places_ <= kFew) return closest_point(mesh_, place);
     if (!tree_) {
       auto made = ClosestPointTree::build(
           mesh_, [this](std::string_view, double) { return report(progress_, "sources", -1); });

@@ -108,7 +108,7 @@ TEST(Sources, InSpaceAreCancelledByTheirProgress) {
   const auto one = resolve_sources({&place, 1}, grid(), stop);
   ASSERT_FALSE(one);
   EXPECT_EQ(one.error().code, ErrorCode::kCancelled);
-  const std::vector<Source> many(3, place);
+  const std::vector<Source> many(20, place);
   int asked = 0;  // the tree over many faces asks, too
   const auto later = resolve_each(many, *finish(sphere(4)),
                                   [&](std::string_view, double) { return ++asked == 1; });

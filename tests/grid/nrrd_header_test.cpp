@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <cmath>
 #include <ostream>
 
 #include "geotherm/domains.h"
@@ -28,12 +29,23 @@ TEST(NrrdHeader, HasTheSameMeaningInCapitals) {
 
 TEST(NrrdHeader, SpacingsThatAreNotKnownAreOne) {
   const TemporaryDirectory directory;
-  for (const std::string header :
+  for (const std::string& header :
        {kBytesHeader + "spacings: nan nan\n",
         std::string("NRRD0004\ntype: uint8\ndimension: 3\nspacings: nan 1 1\nsizes: 1 3 2\n")}) {
     const auto file = read_grid(directory.write("a.nrrd", header + "encoding: raw\n\n123456"));
     ASSERT_TRUE(file) << sentence(file.error());
     EXPECT_EQ(file->grid.spacing, (std::array<double, 3>{1, 1, 1})) << header;
+  }
+}
+
+TEST(NrrdHeader, DirectionsThatAreNoNumbersAreSpacingsThatGridsRefuse) {
+  const TemporaryDirectory directory;
+  for (const std::string second : {"1", "nan"}) {
+    const std::string directions = "space directions: (nan,0) (0," + second + ")\n";
+    const auto file =
+        read_grid(directory.write("a.nrrd", kBytesHeader + directions + "encoding: raw\n\n123456"));
+    ASSERT_TRUE(file) << sentence(file.error());
+    EXPECT_TRUE(std::isnan(file->grid.spacing[0])) << second;
   }
 }
 

@@ -147,6 +147,7 @@ def test_a_model_of_a_file_is_read_again_from_another_folder(program, tmp_path, 
     program("generate", "ball-tets", "--tets", "500", "-o", tmp_path / "ball.mesh")
     monkeypatch.chdir(tmp_path)
     kept = pickle.dumps(geotherm.read("ball.mesh"))
+    (tmp_path / "bunny").mkdir()  # of the name of a bundled model, which is no path
     welded = pickle.dumps(geotherm.read("bunny", weld=0))
     (tmp_path / "other").mkdir()
     monkeypatch.chdir(tmp_path / "other")
@@ -188,6 +189,11 @@ def test_models_of_other_packages_by_their_shape():
         ):
             with pytest.raises(geotherm.InputError, match=f"1 of the kind {kind} beside tets"):
                 geotherm.TetMesh(beside)
+    unknown = SimpleNamespace(points=points, cells_dict={10: tets, 72: [[0] * 10]})
+    with pytest.raises(geotherm.InputError, match="1 of the kind 72 beside tets"):
+        geotherm.TetMesh(unknown)
+    bounded = SimpleNamespace(points=points, cells_dict={10: tets, 13: [], 5: tets[:, :3]})
+    assert geotherm.TetMesh(bounded).n_vertices == len(points)
 
 
 def test_meshio_objects():

@@ -148,6 +148,7 @@ def test_isolines_of_both_signs(bunny):
     assert min(values) < 0 < max(values) and 0 in values
     below = {line.value for line in geotherm.isolines(bunny, height - 100, count=3)}
     assert len(below) == 3 and max(below) < 0
+    assert len(geotherm.isolines(bunny, np.full(bunny.n_vertices, -100.1), count=10)) == 0
     triangle = geotherm.Mesh([[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]])
     widest = geotherm.isolines(triangle, [-1.7e308, 1.7e308, 0], count=3)
     assert [round(line.value / 1.7e308, 9) for line in widest] == [-0.5, 0, 0.5]

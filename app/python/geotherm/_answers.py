@@ -317,7 +317,9 @@ def isolines(
         if not 1 <= whole_in(count, "count") <= 1e5:
             raise InputError(f"count is {count}", hint="give 1 to 100,000")
         share = np.arange(1, count + 1) / (count + 1)
-        levels = least * (1 - share) + largest * share
+        apart = largest - least  # of what doubles hold at their ends it is infinite
+        beyond = not np.isfinite(apart)
+        levels = least * (1 - share) + largest * share if beyond else least + apart * share
     asked, kept_levels = given(levels, "levels", 1)
     with Watch(progress) as watch:
         handle = create(

@@ -18,12 +18,13 @@ from geotherm._models import (
     POLYGONS,
     TETS,
     Mesh,
+    OF_SURFACES,
     Model,
     attributes,
     cells_of,
     refuse_beside,
 )
-from geotherm._options import given_options, options_of
+from geotherm._options import features, given_options, options_of
 
 
 class Polygons(Model):
@@ -66,10 +67,11 @@ class TetMesh(Model):
     def __init__(self, vertices: Any, tets: Any = None) -> None:
         if tets is None:
             all_cells = cells_of(vertices)
-            others = ("tetra", "hexahedron", "wedge", "pyramid", "polyhedron")
             cells = all_cells.get("tetra")
             if cells:
-                refuse_beside(all_cells, "tetra", others, "tets", "cut them into tets")
+                left_out = (*OF_SURFACES, "vertex", "line")  # what bounds tets
+                others = [k for k in all_cells if k != "tetra" and not k.startswith(left_out)]
+                refuse_beside(all_cells, others, "tets", "cut them into tets")
             vertices = attributes(vertices, "points", "vertices")
             if not cells or vertices is None:
                 raise InputError("tets is missing", hint="give vertices and tets")
@@ -199,8 +201,8 @@ def read(
     }
     kind = kinds.get(handle.text("domain"), Model)
     by_arrays = kind is Mesh and "weld" not in settings
-    # Another process may work in another folder; a name that is no file is that of a bundled model.
-    again = os.path.abspath(path) if os.path.exists(path) else os.fspath(path)
+    # Another process may work in another folder.
+    again = path if path in features()["models"] else os.path.abspath(path)
     return kind._around(handle, () if by_arrays else (read_again, again, settings))
 
 

@@ -191,19 +191,32 @@ def attributes(thing: Any, *names: str) -> Any:
 
 
 _VTK_CELLS = {
+    1: "vertex",
+    2: "vertex",
+    3: "line",
+    4: "line",
     5: "triangle",
+    6: "triangle_strip",
+    7: "polygon",
+    8: "quad",
     9: "quad",
     10: "tetra",
     11: "hexahedron",
     12: "hexahedron",
     13: "wedge",
     14: "pyramid",
+    21: "line3",
+    22: "triangle6",
+    23: "quad8",
     24: "tetra10",
     25: "hexahedron20",
     26: "wedge15",
     27: "pyramid13",
     42: "polyhedron",
 }
+
+
+OF_SURFACES = ("triangle", "quad", "polygon")  # beginnings of the kinds of cells
 
 
 def cells_of(thing: Any) -> dict[str, list[Any]]:
@@ -222,13 +235,10 @@ def cells_of(thing: Any) -> dict[str, list[Any]]:
     return found
 
 
-def refuse_beside(
-    cells: dict[str, list[Any]], kept: str, others: tuple[str, ...], called: str, cure: str
-) -> None:
-    """Errors: InputError, where cells of other kinds would be left out beside those that are kept."""
-    for kind, parts in cells.items():
-        if kind != kept and kind.startswith(others):
-            count = sum(len(part) for part in parts)
+def refuse_beside(cells: dict[str, list[Any]], kinds: list[str], called: str, cure: str) -> None:
+    """Errors: InputError, where cells of these kinds would be left out beside those that are kept."""
+    for kind in kinds:
+        if count := sum(len(part) for part in cells[kind]):
             raise InputError(f"cells hold {count} of the kind {kind} beside {called}", hint=cure)
 
 
@@ -236,13 +246,9 @@ def _faces_of(thing: Any) -> Any:
     """Triangles of a trimesh, pyvista or meshio object."""
     cells = cells_of(thing)
     if "triangle" in cells:
-        refuse_beside(
-            cells,
-            "triangle",
-            ("triangle", "quad", "polygon"),
-            "triangles",
-            "cut them into triangles, or give vertices and faces to geotherm.Polygons",
-        )
+        others = [k for k in cells if k != "triangle" and k.startswith(OF_SURFACES)]
+        cure = "cut them into triangles, or give vertices and faces to geotherm.Polygons"
+        refuse_beside(cells, others, "triangles", cure)
         return np.concatenate(cells["triangle"])
     if hasattr(thing, "regular_faces"):
         return thing.regular_faces

@@ -170,7 +170,8 @@ class Taken:
             self._array(sources)
             self._starts = list(range(sources.size + 1))
             return
-        if isinstance(sources, np.ndarray) and sources.ndim == 2 and sources.dtype.kind in "iu":
+        whole = isinstance(sources, np.ndarray) and sources.dtype.kind in "iu"
+        if whole and sources.ndim == 2 and sources.shape[1] == 3:
             raise self._wrong(
                 f"is an array of whole numbers of the shape {sources.shape}, whose rows may be sets "
                 "of vertices or places",

@@ -199,6 +199,7 @@ class NrrdHeaderReader {
 
   /// A spacing that is not known is nan; where none is known, all are 1.
   void check_spacings() {
+    if (directions_.count > 0) return;
     bool known = false, unknown = false;
     for (std::size_t e = 0; e < 3; ++e) {
       double& spacing = header_.grid.spacing[e];
