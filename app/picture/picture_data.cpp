@@ -265,8 +265,15 @@ void add_field(PictureData& data, std::span<const double> values) {
   // Floats would not tell values apart that are far from 0 and near each other.
   data.value_base = data.smallest_value;
   const double range = data.greatest_value - data.smallest_value;
-  if (range > 0) data.value_unit = range;
+  constexpr double kRoundingOfValues = 1e-12;
+  const bool is_one = range <= kRoundingOfValues * data.largest_value * data.value_unit;
+  if (!is_one) data.value_unit = range;
   set_values(data, values);
+  if (is_one) data.greatest_value = data.smallest_value;
+}
+
+bool is_one_value(const PictureData& data) {
+  return data.is_field && data.smallest_value == data.greatest_value;
 }
 
 void add_difference(PictureData& data, std::span<const double> difference, bool times) {

@@ -131,6 +131,8 @@ void add_error(PictureData& data, std::span<const double> signed_error, const st
 
 /// Shows any numbers instead; those that are not finite are none. values: V.
 void add_field(PictureData& data, std::span<const double> values);
+/// Whether all values of a field are one, but for rounding.
+bool is_one_value(const PictureData& data);
 
 /// Shows a difference of distances instead, in the same way.
 void add_difference(PictureData& data, std::span<const double> difference, bool times = false);

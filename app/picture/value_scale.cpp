@@ -14,6 +14,8 @@ namespace {
 constexpr int kMaxTicks = 7, kMaxBandTicks = 10;
 /// Isolines that are not what the picture is about are farther apart by this.
 constexpr double kFewer = 2.5;
+/// Ends of a scale that differ by less, as a share of the larger, differ by rounding.
+constexpr double kRoundingOfEnds = 1e-12;
 /// A logarithmic scale ends at this share of the largest value.
 constexpr double kSmallestRatio = 1e-6;
 
@@ -90,12 +92,15 @@ void set_linear_ends(const PictureData& data, const PictureSettings& settings,
     }
     scale.max = scale.min + settings.bands * each;
   }
-  if (!(scale.max > scale.min)) {  // one end was given, and lies beyond all distances
+  if (!(scale.max > scale.min)) {  // one end was given and lies beyond all values, or these are one
     const double width = std::max({data.value_unit, std::abs(scale.min), std::abs(scale.max)});
     if (range_max) {
       scale.min = scale.max - width;
-    } else {
+    } else if (range_min || !between) {
       scale.max = scale.min + width;
+    } else {
+      scale.min -= width / 2;
+      scale.max += width / 2;
     }
   }
 }
@@ -134,9 +139,10 @@ void set_lines(const PictureData& data, const PictureSettings& settings, bool pa
   } else if (!data.is_signed || data.is_field) {
     scale.spacing = round_spacing(painted ? width : kFewer * width);
   }
-  // More lines than pixels are no lines.
+  // More lines than pixels are no lines, nor are those between values that rounding made.
   const double pixels = std::max(settings.width, settings.height);
-  if (width > pixels * scale.spacing) scale.spacing = 0;
+  const double larger = std::max(std::abs(scale.min), std::abs(scale.max));
+  if (width > pixels * scale.spacing || width < kRoundingOfEnds * larger) scale.spacing = 0;
   if (!(data.is_field || data.is_signed) || scale.spacing == 0) return;
   // Multiples below 0 are lines like the others, and so is 0, but of a difference, which may be 0
   // on a whole region: they are named one by one.
@@ -199,10 +205,10 @@ PictureScale picture_scale(const PictureData& data, const PictureSettings& setti
   }
   const bool painted = maps_values(settings.view) && !data.values.empty();
   const bool shown = painted || (settings.view == View::kRegions && !data.values.empty());
-  // Where all distances are 0 an isoline would be all of the surface.
   if (shown && largest > 0) {
     scale.coloured = true;
-    set_lines(data, settings, painted, scale);
+    // Of one value an isoline would be all of the surface, as where all distances are 0.
+    if (!is_one_value(data)) set_lines(data, settings, painted, scale);
   }
   scale.bar = settings.bar && painted && (largest > 0 || has_range);
   if (!scale.bar) return scale;

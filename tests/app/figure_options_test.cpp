@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <set>
 
 #include "app/drawing/picture_camera.h"
@@ -75,6 +76,30 @@ TEST(FieldScale, TellsValuesApartThatAreFarFromZero) {
   for (std::size_t i = 0; i < 19; ++i) {
     EXPECT_NEAR(style.levels[i], 0.05 * static_cast<double>(i + 1), 1e-6);
   }
+}
+
+TEST(FieldScale, OfOneValueHasItInTheMiddleAndNoIsolines) {
+  constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
+  for (const std::vector<double>& values :
+       {std::vector<double>{5, 5, 5}, {-5, -5, -5}, {1, 1 - kEpsilon, 1 + kEpsilon}}) {
+    const PictureData data = field_on_a_face(values);
+    EXPECT_LT(*std::ranges::max_element(data.values), 1e-6F) << "noise is one colour";
+    const PictureScale scale = app::picture_scale(data, {});
+    EXPECT_DOUBLE_EQ(scale.value_at(0.5), values[0]);
+    EXPECT_DOUBLE_EQ(scale.max - scale.min, std::abs(values[0]));
+    EXPECT_TRUE(scale.levels.empty());
+    EXPECT_EQ(scale.spacing, 0);
+    EXPECT_TRUE(scale.coloured && scale.bar && !scale.below && !scale.above);
+  }
+}
+
+TEST(FieldScale, HasNoIsolinesInARangeOfRounding) {
+  PictureSettings settings;
+  settings.range_min = 1;
+  settings.range_max = 1 + 4 * std::numeric_limits<double>::epsilon();
+  const PictureScale scale = app::picture_scale(field_on_a_face({1, 2, 3}), settings);
+  EXPECT_EQ(scale.spacing, 0);
+  EXPECT_TRUE(scale.levels.empty());
 }
 
 TEST(FieldScale, HasTheLogarithmOfTheValuesThemselves) {
