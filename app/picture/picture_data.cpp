@@ -141,18 +141,24 @@ bool is_solid(const TriangleMesh& mesh) {
     if (sides.size() != 2) return false;
     pieces.join(face_of(sides[0]), face_of(sides[1]));
   }
-  for (Index f = 0; f < std::ssize(clean.faces); ++f) {
-    if (pieces.root(f) != 0) return false;
-  }
   const SceneSpace scene(mesh);
-  double volume = 0;  // times six: the determinant of each face's corners
-  for (const Face& face : mesh.faces()) {
-    const auto [ax, ay, az] = scene.of(mesh.positions()[face[0]]);
-    const auto [bx, by, bz] = scene.of(mesh.positions()[face[1]]);
-    const auto [cx, cy, cz] = scene.of(mesh.positions()[face[2]]);
-    volume += ax * (by * cz - bz * cy) + ay * (bz * cx - bx * cz) + az * (bx * cy - by * cx);
+  const auto at = [&](Index v) {
+    const auto [x, y, z] = scene.of(mesh.positions()[v]);
+    return Vec3(x, y, z);
+  };
+  std::vector<double> volumes(clean.faces.size(), 0);  // times six: of each piece, at its root
+  for (std::size_t f = 0; f < clean.faces.size(); ++f) {
+    const auto root = static_cast<std::size_t>(pieces.root(static_cast<Index>(f)));
+    const Vec3 from = at(clean.faces[root][0]);
+    const auto& [a, b, c] = clean.faces[f];
+    volumes[root] += (at(a) - from).dot((at(b) - from).cross(at(c) - from));
   }
-  return volume > 0;
+  for (std::size_t f = 0; f < clean.faces.size(); ++f) {
+    if (pieces.root(static_cast<Index>(f)) == static_cast<Index>(f) && !(volumes[f] > 0)) {
+      return false;
+    }
+  }
+  return !clean.faces.empty();
 }
 
 void add_sources(PictureData& data, const TriangleMesh& mesh, const SourceSet& sources,

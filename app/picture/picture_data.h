@@ -105,7 +105,7 @@ void move_picture(PictureData& data, const TriangleMesh& mesh);
 /// Finds how much light comes to the vertices where they are now. Cost: O(V + F).
 void light_picture(PictureData& data);
 
-/// Whether the mesh is one closed surface whose faces all run counter-clockwise seen from outside.
+/// Whether the mesh is closed surfaces whose faces all run counter-clockwise seen from outside.
 /// Cost: O(F).
 bool is_solid(const TriangleMesh& mesh);
 

@@ -293,8 +293,10 @@ TEST(Solids, AreClosedAndTurnedOutwards) {
   EXPECT_FALSE(solid(open));
   EXPECT_FALSE(solid(moebius(20, 3)));
   Draft two = ball;
-  append(two, transformed(ball, 0.5, Vec3::Zero(), false));
-  EXPECT_FALSE(solid(two));
+  append(two, transformed(ball, 0.01, Vec3(2, 0, 0), false));
+  EXPECT_TRUE(solid(two));
+  append(two, transformed(inside_out, 0.01, Vec3(3, 0, 0), false));
+  EXPECT_FALSE(solid(two)) << "one is inside out";
 }
 
 TEST(PictureScaleOf, AnEndBeyondAllDistancesIsARangeAllTheSame) {
