@@ -47,7 +47,8 @@ void main() {
   vec2 p = (second ? pb + along * reach : pa - along * reach) + side * across * reach;
   at = p - pa;
   segment = d;
-  // Through a thin body, what is on its other side would come to the front.
-  float depth = nearer_depth(second ? b : a, faces_away() ? 0.0 : radius);
+  // Through a thin body, what is on its other side would come to the front, and half of it does
+  // where it stays on a plane that is inclined.
+  float depth = nearer_depth(second ? b : a, faces_away() ? -radius : radius);
   gl_Position = in_tile(vec4(p / frame.extent * 2.0 - 1.0, depth, 1.0));
 }

@@ -178,6 +178,28 @@ TEST_F(Markers, OnTheFarSideOfAThinBodyAreFaint) {
   }
 }
 
+TEST_F(Markers, OnTheFarSideOfAThinBodyThatIsInclinedAreFaintAllOver) {
+  constexpr float kThickness = 0.001F;
+  Model model = square_model(0.6F, 0);
+  append(model, square_model(0.6F, kThickness));
+  Marker marker = point({0, 0, 0});
+  marker.outward = {0, 0, -1, 0};
+  for (const bool orthographic : {false, true}) {
+    for (const float angle : {90.0F, 60.0F, 30.0F}) {
+      Stage stage = stage_with(model, marker);
+      stage.look({.azimuth = 90 - angle, .elevation = 0, .orthographic = orthographic});
+      const Image image = stage.draw();
+      const glm::vec3 centre = stage.scene.camera.project(marker.from);
+      for (int i = 0; i < 16; ++i) {
+        const double turn = i * std::numbers::pi / 8;
+        const glm::vec3 way(std::cos(turn), std::sin(turn), 0);
+        EXPECT_GT(difference(colour_at(image, centre + 0.4F * kRadius * way), kInside), 0.3F)
+            << angle << " " << i;
+      }
+    }
+  }
+}
+
 TEST_F(Markers, BehindTheEyeAreNotDrawn) {
   Stage stage = stage_with(plane_model(2, 2), {{0, 0, 20}, {0.2F, 0, 30}});
   stage.look({.azimuth = 0, .elevation = 0});
