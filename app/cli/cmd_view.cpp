@@ -254,7 +254,16 @@ Result<std::vector<Command>> commands_of(const ViewArguments& arguments,
   state.timeline.sequence = arguments.sequence;
   state.field = arguments.field;
   state.max_distance = *most;
-  return commands_to(state);
+  std::vector<Command> commands = commands_to(state);
+  // A grid of one layer would be turned head-on from the usual view that was asked for.
+  const CameraSettings usual;
+  const bool is_usual =
+      picture->camera.azimuth == usual.azimuth && picture->camera.elevation == usual.elevation;
+  for (const char* name : {"azimuth", "elevation"}) {
+    if (!is_usual || !arguments.settings.has(name)) continue;
+    commands.emplace_back(command::Set{name, find_setting(name)->get(state)});
+  }
+  return commands;
 }
 
 Result<CommandOutput> run_view(const ViewArguments& given, Drawing& drawing, ViewerWindow& window,

@@ -281,6 +281,11 @@ TEST_F(DrawingProgramOnSpaces, EmptyPicturesAreSaidAndSheetsSeenHeadOn) {
   drawn({"render", "sheet.npy", "-s", "0", "--azimuth", "25"});
   EXPECT_EQ(camera()["azimuth"], 25);
   EXPECT_EQ(camera()["elevation"], 20);
+  folder.write("save.geotherm", "save session s.geotherm\n");
+  run({"view", "sheet.npy", "--azimuth", "30", "--elevation", "20", "--script", "save.geotherm",
+       "--headless"});
+  EXPECT_NE(bytes_of(folder.path("s.geotherm")).find("camera place 30 20 1"), std::string::npos)
+      << "the usual view, where that is asked for";
   const ProgramRun peeled = drawn({"render", "bunny", "-s", "0", "--peel", "above:1"});
   EXPECT_NE(peeled.err.find("the picture is empty: no cell"), std::string::npos) << peeled.err;
 }
