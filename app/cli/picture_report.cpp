@@ -98,11 +98,20 @@ Json settings_json(const PictureFigures& f) {
   return json;
 }
 
+/// The ends of the colours, with one digit more than tells them apart.
+std::string ends_in_words(const PictureScale& scale) {
+  constexpr int kUsual = 4, kAll = 17;
+  int digits = kUsual;
+  while (digits < kAll && significant(scale.min, digits - 1) == significant(scale.max, digits - 1))
+    ++digits;
+  return significant(scale.min, digits) + " to " + significant(scale.max, digits);
+}
+
 std::string view_in_words(const PictureFigures& f) {
   std::string text = geotherm::to_text(f.settings.view);
   if (!has_colours(f)) return text;
   text += ", " + f.scale.colour_map + (f.settings.reverse ? " reversed" : "") + " from " +
-          significant(f.scale.min) + " to " + significant(f.scale.max);
+          ends_in_words(f.scale);
   if (f.scale.kind == ColourScale::kLog) text += ", logarithmic";
   if (f.settings.bands > 0) text += ", in " + std::to_string(f.settings.bands) + " bands";
   if (!f.scale.levels.empty() && f.scale.spacing == 0) {

@@ -97,8 +97,27 @@ void note_values(const PictureFigures& figures, const PictureData& data,
                       ", which the picture shows"});
 }
 
-void note_scale(const PictureFigures& figures, std::vector<Warning>& warnings) {
+/// Says what tells no values apart: isolines that are not there, a scale that is too long.
+void note_scale(const PictureFigures& figures, const PictureData& data,
+                std::vector<Warning>& warnings) {
   const std::optional<double>& asked = figures.settings.line_spacing;
+  const PictureScale& scale = figures.scale;
+  if (is_one_value(data)) {
+    if ((asked && *asked > 0) || !figures.settings.line_values.empty()) {
+      warnings.push_back(
+          {"there is no isoline: all values are " + significant(data.smallest_value)});
+    }
+    return;
+  }
+  constexpr double kSmallShare = 0.02;  // is nearly one colour
+  const bool has_range = figures.settings.range_min || figures.settings.range_max;
+  if (scale.coloured && scale.kind == ColourScale::kLog && !has_range &&
+      scale.place_of(data.greatest_value) - scale.place_of(data.smallest_positive) < kSmallShare) {
+    warnings.push_back(
+        {"the values are so near to each other that a logarithmic scale gives them "
+         "one colour",
+         {"choose ", SettingHint{"colour-scale", {"linear"}}}});
+  }
   const bool drawn = figures.scale.spacing > 0 || !figures.scale.levels.empty();
   if (!asked || *asked <= 0 || drawn || !figures.scale.coloured) return;
   const double room = figures.scale.max - figures.scale.min;
@@ -166,8 +185,8 @@ void note_figure(const RenderArguments& arguments, const PictureFigures& figures
   } else if (face_field(figures.settings.view) && figures.settings.bar_label.empty()) {
     note({"units"}, "what this view shows has none");
   }
-  const bool is_glb =
-      scene_format(arguments.output) == SceneFormat::kGlb;  // has no place for these
+  const auto scene = scene_format(arguments.output);
+  const bool is_glb = scene == SceneFormat::kGlb;  // has no place for these
   if (!is_glb && arguments.settings.has("bar") && !would_have_bar(figures, data)) {
     warnings.push_back({"--no-bar is not used: the picture has no colour bar"});
   }
@@ -199,18 +218,21 @@ void note_figure(const RenderArguments& arguments, const PictureFigures& figures
   const bool sized = s.text_size || s.paper;
   const bool words = !s.title.empty() || !s.bar_label.empty() || !s.units.empty();
   std::vector<std::string> left_out;
-  if (!is_glb && (sized || words)) left_out = drawing.left_out(data, s);
+  if (!scene && (sized || words)) left_out = drawing.left_out(data, s);
   std::erase_if(left_out, [&](const std::string& part) {
     if (sized) return false;
     return part == "the title" ? s.title.empty()
                                : part != "the colour bar" || (s.bar_label + s.units).empty();
   });
   if (!left_out.empty()) {
+    PictureSettings least = s;
+    least.text_size = PaperLength{1};
+    const bool fits = sized && drawing.left_out(data, least).empty();  // with letters small enough
     const Hint larger = {"ask for a larger ", SettingHint{"size"}};
     const Hint smaller = {"give a smaller ", SettingHint{"text-size"}};
     warnings.push_back({"there is no room for " + joined(left_out) + " at " +
                             std::to_string(s.width) + " x " + std::to_string(s.height) + " pixels",
-                        sized ? smaller : larger});
+                        fits ? smaller : larger});
   }
   for (const auto& [name, text] : {std::pair<const char*, std::string>{"--title", s.title},
                                    {"--bar-label", s.bar_label},
@@ -343,7 +365,7 @@ Result<PictureData> prepare_picture(const RenderArguments& arguments, const View
 void note_picture(const RenderArguments& arguments, const PictureFigures& figures,
                   const PictureData& data, const Drawing& drawing, std::vector<Warning>& warnings) {
   if (scene_format(arguments.output) != SceneFormat::kGlb) {  // which has no isolines
-    note_scale(figures, warnings);
+    note_scale(figures, data, warnings);
     note_values(figures, data, warnings);
   }
   note_figure(arguments, figures, data, drawing, warnings);

@@ -177,6 +177,13 @@ TEST_F(ProgramFigure, SaysWhatIsNotUsedAndWhatCannotBeWritten) {
   EXPECT_NE(small.find("no room for the title at 80 x 80 pixels; ask for a larger --size"),
             std::string::npos)
       << small;
+  const auto titled = [&](const std::string& size, const std::string& file) {
+    return run({"render", "bunny", "--view", "smooth", "--title", "a", "--text-size", size,
+                "--size", "80x80", "-o", file})
+        .err;
+  };
+  EXPECT_NE(titled("9", "a.png").find("ask for a larger --size"), std::string::npos);
+  EXPECT_EQ(titled("9", "a.html").find("no room"), std::string::npos) << "the browser makes it";
 }
 
 TEST_F(ProgramFigure, HasItsSizeOnPaper) {
@@ -346,6 +353,21 @@ TEST_F(ProgramFigure, OfValuesBelowZeroHasZeroInTheMiddle) {
   const Json made = json({"render", "t.obj", "--field", "v.npy", "-o", "a.png", "--json", "-"});
   EXPECT_EQ(made["picture"]["range"], Json({-2, 2}));
   EXPECT_EQ(made["picture"]["field"], "v.npy");
+}
+
+TEST_F(ProgramFigure, OfValuesNearEachOtherSaysWhereTheyAre) {
+  write_four_values(folder, {1e8F, 1e8F + 8, 1e8F, 1e8F});
+  const std::vector<std::string> words = {"render", "t.obj", "--field", "v.npy", "-o", "a.png"};
+  const auto with = [&](std::vector<std::string> more) {
+    more.insert(more.begin(), words.begin(), words.end());
+    return run(more);
+  };
+  EXPECT_NE(with({}).out.find("from 100000000 to 100000008"), std::string::npos);
+  const std::string near = "so near to each other";
+  EXPECT_EQ(with({}).err.find(near), std::string::npos);
+  EXPECT_NE(with({"--colour-scale", "log"}).err.find(near), std::string::npos);
+  write_four_values(folder, {5, 5, 5, 5});
+  EXPECT_NE(with({"--values", "5"}).err.find("no isoline: all values are 5"), std::string::npos);
 }
 
 TEST_F(ProgramFigure, OfNoNumberAtAllIsRefused) {
