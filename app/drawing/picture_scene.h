@@ -42,7 +42,8 @@ std::vector<std::int32_t> region_places(const PictureData& data);
 /// And its margin there (engine/scene/region_margins.h).
 std::vector<float> region_margins_of(const PictureData& data);
 
-/// The settings' map in as many colours as they ask for.
+/// The settings' map in as many colours as they ask for: bars and files read it anywhere, the
+/// shader of surfaces in the middle of a band alone, whose borders are those of the values there.
 engine::ColourTable colours_of(const engine::ColourMap& map, const PictureDataSettings& settings);
 
 /// The sources.
