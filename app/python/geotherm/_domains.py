@@ -14,11 +14,11 @@ from geotherm._arrays import AnyArray, number_in
 from geotherm._library import InputError, Progress, Watch, create, path_bytes
 from geotherm._models import (
     GRID,
+    OF_SURFACES,
     POINTS,
     POLYGONS,
     TETS,
     Mesh,
-    OF_SURFACES,
     Model,
     attributes,
     cells_of,
@@ -202,7 +202,8 @@ def read(
     kind = kinds.get(handle.text("domain"), Model)
     by_arrays = kind is Mesh and "weld" not in settings
     # Another process may work in another folder.
-    again = path if path in features()["models"] else os.path.abspath(path)
+    named = os.fspath(path)
+    again = named if named in features()["models"] else os.path.abspath(named)
     return kind._around(handle, () if by_arrays else (read_again, again, settings))
 
 
