@@ -1,22 +1,19 @@
 // SPDX-License-Identifier: MIT
 #include "app/picture/outward.h"
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <map>
 
+#include "solver/geometry/face_gradient.h"
+
 namespace geotherm::app {
 namespace {
 
-/// Unit length, or 0 of a face without area.
 Vec3 normal_of(const TriangleMesh& mesh, Index face) {
   const auto& [a, b, c] = mesh.faces()[face];
   const auto at = mesh.positions();
-  return (at[b] - at[a])
-      .stableNormalized()
-      .cross((at[c] - at[a]).stableNormalized())
-      .stableNormalized();
+  return unit_normal(at[a], at[b], at[c]);
 }
 
 Outward outward_of(std::span<const Vec3> normals) {

@@ -2,13 +2,13 @@
 #include "geotherm/directions.h"
 
 #include <Eigen/Geometry>
-#include <algorithm>
 #include <cmath>
 #include <new>
 #include <numbers>
 #include <string>
 
 #include "solver/directions/directions_state.h"
+#include "solver/geometry/face_gradient.h"
 
 namespace geotherm {
 namespace {
@@ -21,16 +21,6 @@ void set_axes(TangentFrame& frame, const Vec3& normal, const Vec3& along) {
   frame.e1 = flat.norm() > kAlongNormal * along.norm() ? Vec3(flat.normalized())
                                                        : frame.normal.unitOrthogonal();
   frame.e2 = frame.normal.cross(frame.e1);
-}
-
-/// Nothing where the face has no area.
-Vec3 unit_normal(const Vec3& a, const Vec3& b, const Vec3& c) {
-  const Vec3 first = b - a, second = c - a;
-  const double longest = std::max(first.cwiseAbs().maxCoeff(), second.cwiseAbs().maxCoeff());
-  if (!(longest > 0)) return Vec3::Zero();
-  // A power of two keeps all digits, and products within the range of doubles.
-  const double scale = std::ldexp(1.0, std::clamp(-std::ilogb(longest), -1020, 1020));
-  return (scale * first).cross(scale * second).stableNormalized();
 }
 
 }  // namespace

@@ -14,6 +14,15 @@ constexpr double kFlat = 1e-14;
 
 }  // namespace
 
+Vec3 unit_normal(const Vec3& a, const Vec3& b, const Vec3& c) {
+  const Vec3 first = b - a, second = c - a;
+  const double longest = std::max(first.cwiseAbs().maxCoeff(), second.cwiseAbs().maxCoeff());
+  if (!(longest > 0)) return Vec3::Zero();
+  // A power of two keeps all digits, and products within the range of doubles.
+  const double scale = std::ldexp(1.0, std::clamp(-std::ilogb(longest), -1020, 1020));
+  return (scale * first).cross(scale * second).stableNormalized();
+}
+
 Vec3 triangle_gradient(const std::array<Vec3, 3>& corners, const std::array<double, 3>& values) {
   // From the corner opposite the longest side, so that needles lose the fewest digits.
   std::array<double, 3> side{};

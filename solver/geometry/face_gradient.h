@@ -10,6 +10,10 @@
 
 namespace geotherm {
 
+/// To the side from which the corners run counter-clockwise; zero where the triangle has no area.
+/// The same in any unit of lengths.
+Vec3 unit_normal(const Vec3& a, const Vec3& b, const Vec3& c);
+
 /// Gradient of the function that is linear on a triangle and has these values at its corners: the
 /// vector g in its plane with g . e = (difference of the values) along every side e. Units: value
 /// over length. The same to rounding in any unit of lengths and values. Zero where the triangle has
