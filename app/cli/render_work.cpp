@@ -214,19 +214,12 @@ void note_figure(const RenderArguments& arguments, const PictureFigures& figures
   if (!figures.settings.slice) note({"slice-at"}, "nothing is sliced");
   if (arguments.targets.empty()) note({"path-kind"}, "no --path is drawn");
   const PictureSettings& s = figures.settings;
-  // Small pictures for screens have no legend, and nobody asked for one, but for these words.
-  const bool sized = s.text_size || s.paper;
-  const bool words = !s.title.empty() || !s.bar_label.empty() || !s.units.empty();
   std::vector<std::string> left_out;
-  if (!scene && (sized || words)) left_out = drawing.left_out(data, s);
-  std::erase_if(left_out, [&](const std::string& part) {
-    if (sized) return false;
-    return part == "the title" ? s.title.empty()
-                               : part != "the colour bar" || (s.bar_label + s.units).empty();
-  });
+  if (!scene) left_out = drawing.left_out(data, s);
   if (!left_out.empty()) {
     PictureSettings least = s;
     least.text_size = PaperLength{1};
+    const bool sized = s.text_size || s.paper;
     const bool fits = sized && drawing.left_out(data, least).empty();  // with letters small enough
     const Hint larger = {"ask for a larger ", SettingHint{"size"}};
     const Hint smaller = {"give a smaller ", SettingHint{"text-size"}};

@@ -72,8 +72,17 @@ class EngineDrawing final : public Drawing {
 
   std::vector<std::string> left_out(const PictureData& data,
                                     const PictureSettings& settings) const override {
+    const bool sized = settings.text_size || settings.paper;
+    const bool labelled = !settings.bar_label.empty() || !settings.units.empty();
+    if (!sized && !labelled && settings.title.empty()) return {};
     const engine::Legend legend = legend_of(data, settings, picture_scale(data, settings));
-    return engine::lay_out(legend, glm::vec2(settings.width, settings.height)).left_out;
+    auto parts = engine::lay_out(legend, glm::vec2(settings.width, settings.height)).left_out;
+    // Small pictures for screens have no legend, and nobody asked for one, but for these words.
+    std::erase_if(parts, [&](const std::string& part) {
+      if (part == engine::kTitlePart) return !sized && settings.title.empty();
+      return !sized && !(part == engine::kBarPart && labelled);
+    });
+    return parts;
   }
 
   Result<Colours> colours(const std::string& name) const override {

@@ -57,8 +57,9 @@ class Drawing {
   /// The letters of a text that pictures show as a box, such as "'x' (U+1234)", each once. Needs no
   /// device.
   virtual std::vector<std::string> missing_letters(const std::string& /*text*/) const { return {}; }
-  /// What is written about a picture and has no room in it, such as "the colour bar". Needs no
-  /// device.
+  /// What was asked to be written about a picture and has no room in it, such as "the colour bar":
+  /// all of it by a size of letters or of paper, else a title, and a bar by its label or units.
+  /// Needs no device.
   virtual std::vector<std::string> left_out(const PictureData& /*data*/,
                                             const PictureSettings& /*settings*/) const {
     return {};

@@ -92,12 +92,14 @@ void draw_keys(const Legend& legend, const Measures& m, glm::vec2 size, float to
   }
 }
 
+bool wants_bar(const Legend& legend) { return legend.bar && legend.colours.size() >= 2; }
+
 /// The bar, and the keys beside it or, where that has no room, above it. Returns the height of the
 /// keys, 0 where they have no room.
 float draw_bar_and_keys(const Legend& legend, const Measures& m, glm::vec2 extent, float top,
                         float bottom, LegendLayout& layout, BarPlace& bar) {
   Overlay& overlay = layout.overlay;
-  const bool wanted = legend.bar && legend.colours.size() >= 2;
+  const bool wanted = wants_bar(legend);
   const bool has_bar = wanted && std::min(extent.x, extent.y) >= kSmallestForBar;
   const glm::vec2 keys = size_of_keys(legend, m, overlay.atlas);
   const float below = keys.y + std::round(0.4F * m.line);
@@ -121,8 +123,8 @@ float draw_bar_and_keys(const Legend& legend, const Measures& m, glm::vec2 exten
     drawn = room || draw_from(top);
   }
   if (room) draw_keys(legend, m, keys, top, overlay);
-  if (wanted && !drawn) layout.left_out.emplace_back("the colour bar");
-  if (!legend.keys.empty() && !room) layout.left_out.emplace_back("the keys of the colours");
+  if (wanted && !drawn) layout.left_out.emplace_back(kBarPart);
+  if (!legend.keys.empty() && !room) layout.left_out.emplace_back(kKeysPart);
   return room ? below : 0;
 }
 
@@ -140,10 +142,10 @@ LegendLayout lay_out(const Legend& legend, glm::vec2 extent) {
     const auto leave_out = [&](bool wanted, const char* part) {
       if (wanted) layout.left_out.emplace_back(part);
     };
-    leave_out(!legend.caption.empty(), "the caption");
-    leave_out(!legend.heading.empty(), "the title");
-    leave_out(legend.bar && legend.colours.size() >= 2, "the colour bar");
-    leave_out(!legend.keys.empty(), "the keys of the colours");
+    leave_out(!legend.caption.empty(), kCaptionPart);
+    leave_out(!legend.heading.empty(), kTitlePart);
+    leave_out(wants_bar(legend), kBarPart);
+    leave_out(!legend.keys.empty(), kKeysPart);
     return layout;
   }
   const Measures m = measures_of(legend, extent);
@@ -162,10 +164,10 @@ LegendLayout lay_out(const Legend& legend, glm::vec2 extent) {
     bottom = top - std::round(0.4F * m.line);
     layout.insets.bottom = extent.y - bottom;
   } else if (!legend.caption.empty()) {
-    layout.left_out.emplace_back("the caption");
+    layout.left_out.emplace_back(kCaptionPart);
   }
   const float top = m.margin + draw_heading(legend, m, extent, overlay);
-  if (!legend.heading.empty() && top == m.margin) layout.left_out.emplace_back("the title");
+  if (!legend.heading.empty() && top == m.margin) layout.left_out.emplace_back(kTitlePart);
   BarPlace bar;
   const float keys = draw_bar_and_keys(legend, m, extent, top, bottom, layout, bar);
   if (keys > 0 || top > m.margin) layout.insets.top = top + keys;

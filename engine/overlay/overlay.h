@@ -135,6 +135,12 @@ struct Legend {
   float line_height = 0;        ///< of letters, pixels; 0: as `scale` says
 };
 
+/// Parts of a legend, as a sentence names them.
+inline constexpr const char* kCaptionPart = "the caption";
+inline constexpr const char* kTitlePart = "the title";
+inline constexpr const char* kBarPart = "the colour bar";
+inline constexpr const char* kKeysPart = "the keys of the colours";
+
 struct LegendLayout {
   Overlay overlay;
   Insets insets;   ///< what the legend takes of the picture's sides; 0 where it has nothing
