@@ -175,7 +175,7 @@ std::vector<Colour16> colours_of(const SceneMesh& mesh, const PictureData& shown
 std::vector<float> distances_of(const SceneMesh& mesh, const PictureData& data) {
   std::vector<float> out;
   for (const std::uint32_t v : mesh.origin) {
-    const double value = data.value_base + double{data.values[v]} * data.value_unit;
+    const double value = data.in_model_units(data.values[v]);
     const bool known = data.values[v] != kNoPictureValue;
     out.push_back(
         known ? static_cast<float>(std::clamp<double>(value, std::numeric_limits<float>::lowest(),

@@ -237,27 +237,30 @@ void set_values(PictureData& data, std::span<const double> values) {
   });
 }
 
-}  // namespace
-
-void add_distances(PictureData& data, std::span<const double> distances, std::optional<double> unit,
-                   bool times) {
+/// Makes the largest of these the unit, unless one is given.
+void set_unit(PictureData& data, std::span<const double> values, std::optional<double> unit) {
   double most = unit.value_or(0);
-  for (const double d : distances) {
-    if (!unit && std::isfinite(d)) most = std::max(most, d);
+  for (const double value : values) {
+    if (!unit && std::isfinite(value)) most = std::max(most, std::abs(value));
   }
   data.value_unit = most > 0 ? most : 1;
   data.value_base = 0;
   data.largest_value = most > 0 ? 1 : 0;
   data.is_signed = data.is_field = false;
+}
+
+}  // namespace
+
+void add_distances(PictureData& data, std::span<const double> distances, std::optional<double> unit,
+                   bool times) {
+  set_unit(data, distances, unit);
   // The unit stays on one line.
   data.value_title = times ? "travel time (time\u00a0units)" : "distance (model\u00a0units)";
   set_values(data, distances);
 }
 
 void add_error(PictureData& data, std::span<const double> signed_error, const std::string& title) {
-  std::vector<double> sizes(signed_error.begin(), signed_error.end());
-  for (double& size : sizes) size = std::abs(size);
-  add_distances(data, sizes);
+  set_unit(data, signed_error, {});
   data.is_signed = true;
   data.value_title = title;
   set_values(data, signed_error);

@@ -51,9 +51,11 @@ struct PictureData {
 
   /// V: (distance - value_base) / value_unit, or kNoPictureValue; empty: no solve
   std::vector<float> values;
-  double value_unit = 1;     ///< model units; the largest distance, 1 if there is none above 0, or
-                             ///< that of another frame
-  double value_base = 0;     ///< the least value of a field whose values have one sign, else 0
+  double value_unit = 1;  ///< model units; the largest distance, 1 if there is none above 0, or
+                          ///< that of another frame; of a field from value_base on, how far
+  double value_base = 0;  ///< the least value of a field whose values have one sign, else 0
+  /// Model units of what stands in `values`, or lies between.
+  double in_model_units(double value) const { return value_base + value * value_unit; }
   double largest_value = 0;  ///< in value_unit: 1, or 0 when no distance is above 0
   /// The least and the greatest distance, where there are some, and the least above 0 (0: none).
   double smallest_value = 0, greatest_value = 0, smallest_positive = 0;

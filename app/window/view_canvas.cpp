@@ -79,7 +79,7 @@ std::optional<ui::InsidePoint> ViewCanvas::inside_at(float x, float y) const {
     if (corner == kNoPictureValue) return inside;
     value += hit->point.weights[k] * double{corner};
   }
-  inside.value = cut->data.value_base + value * cut->data.value_unit;
+  inside.value = cut->data.in_model_units(value);
   return inside;
 }
 
