@@ -256,11 +256,8 @@ Result<std::vector<Command>> commands_of(const ViewArguments& arguments,
   state.max_distance = *most;
   std::vector<Command> commands = commands_to(state);
   // A grid of one layer would be turned head-on from the usual view that was asked for.
-  const CameraSettings usual;
-  const bool is_usual =
-      picture->camera.azimuth == usual.azimuth && picture->camera.elevation == usual.elevation;
   for (const char* name : {"azimuth", "elevation"}) {
-    if (!is_usual || !arguments.settings.has(name)) continue;
+    if (!is_seen_as_usual(picture->camera) || !arguments.settings.has(name)) continue;
     commands.emplace_back(command::Set{name, find_setting(name)->get(state)});
   }
   return commands;

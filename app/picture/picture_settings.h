@@ -177,6 +177,12 @@ struct CameraSettings {
   bool operator==(const CameraSettings&) const = default;
 };
 
+/// Whether it looks from where every model is seen at first.
+inline bool is_seen_as_usual(const CameraSettings& camera) {
+  const CameraSettings usual;
+  return camera.azimuth == usual.azimuth && camera.elevation == usual.elevation;
+}
+
 /// Those settings that decide what a picture's data are. A window that has given them to the device
 /// does so again when one of these changes.
 struct PictureDataSettings {

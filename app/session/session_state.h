@@ -63,12 +63,6 @@ class Worker {
 /// What takes long of a save. Needs nothing of the session any more, and stops as work does.
 using Writing = std::function<Result<void>(const Progress& progress)>;
 
-/// Whether it looks from where every model is seen at first.
-inline bool is_seen_as_usual(const CameraSettings& camera) {
-  const CameraSettings usual;
-  return camera.azimuth == usual.azimuth && camera.elevation == usual.elevation;
-}
-
 struct Session::State {
   explicit State(SessionHooks given) : hooks(std::move(given)) {}
 

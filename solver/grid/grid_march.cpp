@@ -330,7 +330,8 @@ GridMarch::Corners GridMarch::corners_at(const GridPlace& at, int main, Index so
 }
 
 /// Whether the line to the source runs through cells of its speed alone, as far as to where it
-/// leaves one between corners that see it. False: nor is it known after so many samples.
+/// leaves one between corners that see it. False, too, where this is not known after so many
+/// samples.
 bool GridMarch::is_in_sight(const GridPlace& at, const GridPlace& way, int main, Index source,
                             double samples) const {
   constexpr double kRoundOff = 1e-9;
